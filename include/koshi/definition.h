@@ -1,0 +1,180 @@
+// What a user can set: plain structs with defaults, SI units. The input file, the command line and Python fill the same
+// structs; Model validates and freezes them. Names follow the keys of the input file.
+#pragma once
+
+#include <array>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "koshi/error.h"
+#include "koshi/lattice.h"
+#include "koshi/springs.h"
+
+namespace koshi::model {
+
+enum class Sharing { shared, plain };
+enum class Calibration { bending_exact, isotropic, paper };
+enum class Kinematics { rotational, least_squares };
+
+/// [lattice]
+struct LatticeDefinition {
+  lattice::CellType cell = lattice::CellType::cube_iii;
+  double spacing = 0;  ///< d [m], required
+  Sharing springs = Sharing::shared;
+  /// Unset: bending-exact for shared Cube-III, isotropic for shared Cube-I and -II, paper for plain springs.
+  std::optional<Calibration> calibration;
+  Kinematics kinematics = Kinematics::rotational;
+  /// Calibration "paper": entries of C set equal to the elastic tensor, e.g. {"C1122", "C1212"} or {"C1111-C1122"};
+  /// empty: Cube-I C1111-C1122, Cube-II C1122 and C1212, Cube-III C1122 and C1111.
+  std::vector<std::string> equations;
+  /// Calibration "paper": which body axes are 1, 2, 3 of C; a permutation of "xyz".
+  std::string axes = "xyz";
+};
+
+/// [body]
+struct BodyDefinition {
+  Vec3 origin{};                               ///< lower corner [m]
+  Vec3 size{};                                 ///< [m], multiples of the spacing; unset with an image
+  std::string material;                        ///< name of the cells' material; unset with an image
+  std::array<bool, 3> periodic{};              ///< opposite faces are joined
+  std::string image;                           ///< file of cell values (.npy, .vti, .mha, .nrrd); empty: none
+  std::map<int, std::string> image_materials;  ///< image value -> material name or "void" (key `materials`)
+};
+
+/// [material.NAME]
+struct MaterialDefinition {
+  std::string name;
+  material::Elastic elastic;
+};
+
+/// [[region]]: gives the cells whose centre lies inside the shape a material; later regions win.
+struct RegionDefinition {
+  enum class Shape { box, sphere, cylinder, half_space, stl };
+  Shape shape = Shape::box;
+  std::string material;    ///< a material's name or "void"
+  Vec3 min{}, max{};       ///< box [m]
+  Vec3 center{};           ///< sphere [m]
+  double radius = 0;       ///< sphere, cylinder [m]
+  Vec3 start{}, end{};     ///< axis of the cylinder [m]
+  Vec3 point{}, normal{};  ///< half-space: the side of `point` to which `normal` does not point
+  std::string file;        ///< stl: a closed surface
+  double scale = 1;        ///< stl: length of the file's unit [m]
+};
+
+enum class Face { x_min, x_max, y_min, y_max, z_min, z_max };
+
+/// Nodes a boundary, load or probe applies to: exactly one of the three. A point selects the nearest node, which must
+/// lie within half a spacing in every direction.
+struct Selection {
+  std::optional<Face> face;
+  std::optional<std::pair<Vec3, Vec3>> box;  ///< {min, max} [m], nodes inside or on the border
+  std::optional<Vec3> point;                 ///< [m]
+};
+
+/// Factor over time, piecewise linear, constant outside; pairs {t [s], factor}, t ascending; empty: 1.
+using History = std::vector<std::array<double, 2>>;
+
+/// [[boundary]]: prescribed motion. Components 0..5 = x, y, z, rx, ry, rz.
+struct BoundaryDefinition {
+  std::string name;
+  Selection selection;
+  std::array<bool, 6> fix{};
+  std::array<std::optional<double>, 6> displacement{};  ///< [m], [rad]
+  std::array<std::optional<double>, 6> velocity{};      ///< [m/s], [rad/s]
+  /// The selection turns as a rigid body about an axis through `center`: angle [rad] about x, y or z; prescribes the
+  /// two displacements across the axis and the rotation about it, and leaves the displacement along it free (warping).
+  std::array<std::optional<double>, 3> twist{};
+  std::optional<Vec3> center;  ///< of the twist [m]; unset: mean position of the selected nodes
+  double ramp = 0;             ///< [s], displacement and twist rise linearly from 0; velocity too
+  History history;             ///< factor on displacement, velocity and twist
+};
+
+/// [[load]]: exactly one of force, traction, pressure, acceleration.
+struct LoadDefinition {
+  enum class Distribution { area, nodes };
+  std::string name;
+  Selection selection;                             ///< none for acceleration
+  std::optional<Vec3> force;                       ///< total [N]
+  Distribution distribution = Distribution::area;  ///< of the total force
+  std::optional<Vec3> traction;                    ///< [Pa], on a face or the part of it in a box
+  std::optional<double> pressure;                  ///< [Pa], against the face's outward normal
+  std::optional<Vec3> acceleration;                ///< body force per mass [m/s^2]
+  History history;
+};
+
+struct DampingDefinition {
+  enum class Kind { none, local, viscous };
+  Kind kind = Kind::local;
+  double factor = 0.8;  ///< local: alpha of (N27), 0 <= alpha < 1
+  double rate = 0;      ///< viscous: c/m of (N1) [1/s]
+};
+
+/// [analysis]
+struct AnalysisDefinition {
+  enum class Type { statics, quasi_static, dynamic };
+  Type type = Type::statics;
+  double tolerance = 1e-8;           ///< statics: relative residual; quasi-static: unbalanced-force ratio
+  std::optional<double> duration;    ///< [s], required for dynamic; quasi-static: the most simulated time
+  std::optional<double> time_step;   ///< [s]; unset: "auto"
+  bool allow_unstable_step = false;  ///< run with a step above the stable limit all the same
+  double safety = 0.9;               ///< of the automatic step: its ratio to the stable limit
+  DampingDefinition damping;         ///< unset in a dynamic run: none
+  std::string start_from;            ///< output directory of an earlier run whose displacements are the start
+};
+
+/// [[probe]]
+struct ProbeDefinition {
+  enum class Quantity { displacement, rotation, velocity, reaction, stress, strain };
+  enum class Reduce { mean, area_mean, sum, max };
+  std::string name;
+  Selection selection;
+  Quantity quantity = Quantity::displacement;
+  std::optional<Reduce> reduce;  ///< unset: sum for reactions, else mean
+};
+
+/// [output]
+struct OutputDefinition {
+  /// displacement, rotation, orientation, velocity, reaction, strain, stress, material, energy; unset: displacement.
+  std::vector<std::string> fields{"displacement"};
+  std::optional<double> every;             ///< [s] simulated time between field samples; unset: the end only
+  std::optional<double> history_every;     ///< [s] simulated time between rows of history.csv; unset: 200 rows
+  std::optional<double> checkpoint_every;  ///< [s] simulated time
+  std::optional<double> checkpoint_wall;   ///< [s] wall time; key checkpoint_every_wall
+  bool report = false;                     ///< write report.html
+};
+
+/// Where each key of the input stood, by path ("boundary[0].face"); empty for a definition made in code.
+class Places {
+ public:
+  void set(const std::string& path, const Place& place) { places_[path] = place; }
+  /// Place of the key or of the nearest enclosing table that is known.
+  Place find(std::string path) const;
+
+ private:
+  std::map<std::string, Place> places_;
+};
+
+struct Definition {
+  std::string title;
+  LatticeDefinition lattice;
+  BodyDefinition body;
+  std::vector<MaterialDefinition> materials;
+  std::vector<RegionDefinition> regions;
+  std::vector<BoundaryDefinition> boundaries;
+  std::vector<LoadDefinition> loads;
+  AnalysisDefinition analysis;
+  std::vector<ProbeDefinition> probes;
+  OutputDefinition output;
+
+  Places places;
+  std::string directory = ".";  ///< relative file names (image, stl, start_from) are looked up here
+
+  /// The calibration in force: the one set, else the default for the cell and sharing.
+  Calibration calibration() const;
+};
+
+}  // namespace koshi::model

@@ -1,0 +1,28 @@
+// Elastic constants and the springs that stand for them.
+#pragma once
+
+#include <array>
+
+#include "koshi/lattice.h"
+
+namespace koshi::material {
+
+/// Isotropic elastic solid; E in Pa (> 0), -1 < nu < 1/2, density in kg/m^3 (> 0).
+struct Elastic {
+  double youngs_modulus = 0;
+  double poissons_ratio = 0;
+  double density = 0;
+
+  double lambda() const { return youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)); }
+  double mu() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
+};
+
+/// Springs of one material, by bond family: the full stiffness of a bond inside the bulk, and the volumetric modulus.
+/// With shared springs a cell owns 1/4 of an edge, 1/2 of a face diagonal, all of a body diagonal (theory, section 6).
+struct Springs {
+  std::array<double, lattice::family_count> kn{};  ///< normal stiffness [N/m]
+  std::array<double, lattice::family_count> kt{};  ///< shear stiffness [N/m]
+  double kappa = 0;                                ///< volumetric spring per cell [Pa], energy 1/2 kappa d^3 theta^2
+};
+
+}  // namespace koshi::material

@@ -1,0 +1,19 @@
+#include "koshi/error.h"
+
+#include <fmt/format.h>
+
+namespace koshi {
+namespace {
+
+std::string located(const Place& place, const std::string& message) {
+  if (place.file.empty()) return fmt::format("error: {}", message);
+  if (place.line == 0) return fmt::format("{}: error: {}", place.file, message);
+  return fmt::format("{}:{}:{}: error: {}", place.file, place.line, place.column, message);
+}
+
+}  // namespace
+
+InputError::InputError(const Place& place, const std::string& message)
+    : std::runtime_error(located(place, message)), place_(place) {}
+
+}  // namespace koshi

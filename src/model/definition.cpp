@@ -1,0 +1,22 @@
+#include "koshi/definition.h"
+
+namespace koshi::model {
+
+Place Places::find(std::string path) const {
+  for (;;) {
+    if (const auto found = places_.find(path); found != places_.end()) return found->second;
+    const auto end = path.find_last_of(".[");
+    if (end == std::string::npos) break;
+    path.resize(end);
+  }
+  const auto root = places_.find("");
+  return root == places_.end() ? Place{} : root->second;
+}
+
+Calibration Definition::calibration() const {
+  if (lattice.calibration) return *lattice.calibration;
+  if (lattice.springs == Sharing::plain) return Calibration::paper;
+  return lattice.cell == lattice::CellType::cube_iii ? Calibration::bending_exact : Calibration::isotropic;
+}
+
+}  // namespace koshi::model
