@@ -16,18 +16,14 @@
 
 namespace koshi::model {
 
-enum class Sharing { shared, plain };
-enum class Calibration { bending_exact, isotropic, paper };
-enum class Kinematics { rotational, least_squares };
-
 /// [lattice]
 struct LatticeDefinition {
   lattice::CellType cell = lattice::CellType::cube_iii;
   double spacing = 0;  ///< d [m], required
-  Sharing springs = Sharing::shared;
+  material::Sharing springs = material::Sharing::shared;
   /// Unset: bending-exact for shared Cube-III, isotropic for shared Cube-I and -II, paper for plain springs.
-  std::optional<Calibration> calibration;
-  Kinematics kinematics = Kinematics::rotational;
+  std::optional<material::Calibration> calibration;
+  material::Kinematics kinematics = material::Kinematics::rotational;
   /// Calibration "paper": entries of C set equal to the elastic tensor, e.g. {"C1122", "C1212"} or {"C1111-C1122"};
   /// empty: Cube-I C1111-C1122, Cube-II C1122 and C1212, Cube-III C1122 and C1111.
   std::vector<std::string> equations;
@@ -174,7 +170,7 @@ struct Definition {
   std::string directory = ".";  ///< relative file names (image, stl, start_from) are looked up here
 
   /// The calibration in force: the one set, else the default for the cell and sharing.
-  Calibration calibration() const;
+  material::Calibration calibration() const;
 };
 
 }  // namespace koshi::model

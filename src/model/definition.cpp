@@ -13,9 +13,10 @@ Place Places::find(std::string path) const {
   return root == places_.end() ? Place{} : root->second;
 }
 
-Calibration Definition::calibration() const {
+material::Calibration Definition::calibration() const {
+  using material::Calibration;
   if (lattice.calibration) return *lattice.calibration;
-  if (lattice.springs == Sharing::plain) return Calibration::paper;
+  if (lattice.springs == material::Sharing::plain) return Calibration::paper;
   return lattice.cell == lattice::CellType::cube_iii ? Calibration::bending_exact : Calibration::isotropic;
 }
 
