@@ -3,6 +3,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -39,6 +40,8 @@ struct BodyDefinition {
   std::array<bool, 3> periodic{};              ///< opposite faces are joined
   std::string image;                           ///< file of cell values (.npy, .vti, .mha, .nrrd); empty: none
   std::map<int, std::string> image_materials;  ///< image value -> material name or "void" (key `materials`)
+  /// Material of each cell, x fastest, 0 = empty, k = materials[k - 1]; filled from the image, or by a program.
+  std::vector<std::uint8_t> cells;
 };
 
 /// [material.NAME]
