@@ -31,6 +31,7 @@ PUBLIC = {
     "error.h": "base",
     "vector3.h": "base",
     "lattice.h": "lattice",
+    "calibration.h": "material",
     "springs.h": "material",
     "definition.h": "model",
 }
