@@ -1,0 +1,27 @@
+# What `cmake --install` and `cpack -G DEB` put where.
+include(CMakePackageConfigHelpers)
+set(KOSHI_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/koshi)
+
+install(TARGETS koshi EXPORT koshiTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
+install(TARGETS koshi_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(DIRECTORY include/koshi TYPE INCLUDE)
+install(FILES README.md LICENSE CITATION.cff CHANGELOG.md TYPE DOC)
+
+# find_package(koshi) gives koshi::koshi and finds the libraries behind it.
+install(EXPORT koshiTargets NAMESPACE koshi:: DESTINATION ${KOSHI_CMAKE_DIR})
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/koshiConfigVersion.cmake COMPATIBILITY SameMinorVersion)
+install(FILES cmake/koshiConfig.cmake cmake/KoshiDependencies.cmake ${PROJECT_BINARY_DIR}/koshiConfigVersion.cmake
+  DESTINATION ${KOSHI_CMAKE_DIR})
+
+# The Debian package; its dependencies are read off the program (dpkg-shlibdeps), but for what it starts or offers.
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_CONTACT "The Koshi developers <koshi@example.org>")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEBIAN_FILE_NAME "koshi_${PROJECT_VERSION}_amd64.deb")
+set(CPACK_DEBIAN_PACKAGE_SECTION science)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
+set(CPACK_DEBIAN_PACKAGE_SUGGESTS
+  "libopenmpi-dev, petsc-dev, libvtk9-dev, libhdf5-openmpi-dev, libeigen3-dev, libtomlplusplus-dev, libudunits2-dev, libfmt-dev, nlohmann-json3-dev, pkg-config, cmake")
+include(CPack)

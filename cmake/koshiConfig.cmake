@@ -1,0 +1,2 @@
+include(${CMAKE_CURRENT_LIST_DIR}/KoshiDependencies.cmake)
+include(${CMAKE_CURRENT_LIST_DIR}/koshiTargets.cmake)
