@@ -23,9 +23,12 @@ class InputError : public std::runtime_error {
   InputError(const Place& place, const std::string& message);
 
   const Place& place() const { return place_; }
+  /// The text without the place.
+  const std::string& message() const { return message_; }
 
  private:
   Place place_;
+  std::string message_;
 };
 
 /// A run that was valid but failed. `what()` says where it stopped and what to change.

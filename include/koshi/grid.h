@@ -50,7 +50,7 @@ class Layout {
   std::int64_t pitch() const { return pitch_; }
   std::int64_t plane() const { return plane_; }
   /// Number of array elements of one component, ghosts and padding included.
-  std::int64_t size() const { return plane_ * (owned_[2] + 2) + lead; }
+  std::int64_t size() const { return plane_ * (owned_[2] + 2) + 4 * lead; }
   std::int64_t owned_count() const { return owned_[0] * owned_[1] * owned_[2]; }
 
   std::int64_t index(std::int64_t i, std::int64_t j, std::int64_t k) const {

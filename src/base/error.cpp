@@ -14,6 +14,6 @@ std::string located(const Place& place, const std::string& message) {
 }  // namespace
 
 InputError::InputError(const Place& place, const std::string& message)
-    : std::runtime_error(located(place, message)), place_(place) {}
+    : std::runtime_error(located(place, message)), place_(place), message_(message) {}
 
 }  // namespace koshi

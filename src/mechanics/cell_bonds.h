@@ -1,0 +1,52 @@
+// The bonds of one cell of a body, with the part of each that belongs to the cell.
+#pragma once
+
+#include <array>
+
+#include "koshi/spring_lattice.h"
+
+namespace koshi::mechanics {
+
+/// One of the 28 bonds of a cell between corners a and b (corner = x + 2 y + 4 z); D = x_a - x_b = -d s.
+struct CellBond {
+  int a, b;
+  int slot;
+};
+
+/// 12 edges, 12 face diagonals, 4 body diagonals; corner b = corner a + slots[slot].s.
+constexpr std::array<CellBond, 28> make_cell_bonds() {
+  std::array<CellBond, 28> bonds{};
+  std::size_t count = 0;
+  for (int slot = 0; slot < lattice::slot_count; ++slot)
+    for (int a = 0; a < 8; ++a) {
+      int b = 0;
+      bool inside = true;
+      for (int axis = 0; axis < 3; ++axis) {
+        const int at = (a >> axis & 1) + lattice::slots[slot].s[axis];
+        inside = inside && (at == 0 || at == 1);
+        b += at << axis;
+      }
+      if (inside) bonds[count++] = {a, b, slot};
+    }
+  return bonds;
+}
+inline constexpr std::array<CellBond, 28> cell_bonds = make_cell_bonds();
+
+struct Stiffness {
+  double kn, kt;  ///< [N/m]
+};
+
+/// The cell's part of a bond whose first node is `node`; `material` is that of the cell. Shared springs: the material's
+/// stiffness over the number of cells in the bulk. Plain springs: the bond's stiffness over its solid cells.
+inline Stiffness cell_part(const model::SpringLattice& body, int slot, std::int64_t node, std::uint8_t material) {
+  const int family = lattice::slots[slot].family;
+  if (body.sharing == material::Sharing::shared) {
+    const double parts = lattice::cells_per_bond[family];
+    return {body.springs[material].kn[family] / parts, body.springs[material].kt[family] / parts};
+  }
+  const model::BondClass& bond = body.classes[body.bond.component(slot)[node]];
+  if (bond.solid_cells == 0) return {0, 0};
+  return {bond.kn / bond.solid_cells, bond.kt / bond.solid_cells};
+}
+
+}  // namespace koshi::mechanics

@@ -1,0 +1,154 @@
+#include "mechanics/force_kernel.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "lattice/halo.h"
+#include "mechanics/plain_fit.h"
+#include "mechanics/stencil.h"
+
+namespace koshi::mechanics {
+
+using model::SpringLattice;
+
+template <class T>
+ForceKernel<T>::ForceKernel(const SpringLattice& lattice)
+    : lattice_(lattice), components_(lattice.components()), volumetric_(lattice.has_volumetric()) {
+  make_tables();
+  make_segments();
+
+  // Work space: 18 stencil rows, 4 cell rows, 6 force rows, each with the lead and the padding of a row of nodes.
+  constexpr int stencil_rows = 18, cell_rows = 4;
+  const lattice::Layout row({0, 0, 0}, {lattice.layout.owned()[0] + 32, 1, 1});
+  work_ = lattice::Field<T>(lattice::Layout({0, 0, 0}, {row.pitch(), 1, 1}), stencil_rows + cell_rows + 6);
+  int next = 0;
+  const auto take = [&] { return work_.component(next++) + 4 * lattice::Layout::lead; };
+  for (T*& r : scratch_.stencil) r = take();
+  for (T*& r : scratch_.cell) r = take();
+  for (T*& r : force_) r = take();
+}
+
+template <class T>
+void ForceKernel<T>::make_tables() {
+  const double d = lattice_.grid.d;
+  // Divisor |s|^2 of the normal part: classes know no family, so find one bond of each class.
+  std::array<int, 256> length{};
+  for (int slot = 0; slot < lattice::slot_count; ++slot) {
+    const std::uint8_t* bond = lattice_.bond.component(slot);
+    for (std::int64_t n = 0; n < lattice_.layout.size(); ++n)
+      length[bond[n]] = lattice::squared_length[lattice::slots[slot].family];
+  }
+  kt_.assign(256, 0);
+  kb_.assign(256, 0);
+  for (std::size_t c = 1; c < lattice_.classes.size(); ++c) {
+    kt_[c] = static_cast<T>(lattice_.classes[c].kt);
+    if (length[c] != 0) kb_[c] = static_cast<T>((lattice_.classes[c].kn - lattice_.classes[c].kt) / length[c]);
+  }
+  volumetric_table_.assign(256, 0);
+  fit_table_.assign(256, 0);
+  stencils_.resize(lattice_.springs.size());
+  for (std::size_t m = 1; m < lattice_.springs.size(); ++m) {
+    const material::Springs& s = lattice_.springs[m];
+    volumetric_table_[m] = static_cast<T>(s.kappa * d / 16);
+    fit_table_[m] = static_cast<T>((s.kt[0] / 4 + s.kt[1] + s.kt[2]) / 8);
+    stencils_[m] = make_stencil<T>(s, d, lattice_.kinematics);
+  }
+  tables_ = {kt_.data(), kb_.data(), volumetric_table_.data(), fit_table_.data(), static_cast<T>(0.5 * d)};
+}
+
+template <class T>
+void ForceKernel<T>::make_segments() {
+  const lattice::Layout& layout = lattice_.layout;
+  const Int3& owned = layout.owned();
+  const std::uint8_t* cell = lattice_.cell.component(0);
+  // With plain springs and the least-squares rotation the parts of a cell depend on its neighbours: no node is uniform.
+  const bool uniform_allowed = !(lattice_.sharing == material::Sharing::plain &&
+                                 lattice_.kinematics == material::Kinematics::least_squares);
+  for (std::int64_t k = 0; k < owned[2]; ++k)
+    for (std::int64_t j = 0; j < owned[1]; ++j) {
+      row_segments_.push_back(static_cast<std::int64_t>(segments_.size()));
+      const std::int64_t n = layout.index(0, j, k);
+      for (std::int64_t i = 0; i < owned[0]; ++i) {
+        bool uniform = true, empty = true;
+        const std::uint8_t m = cell[n + i];
+        for (int corner = 0; corner < 8; ++corner) {
+          const std::uint8_t other = cell[n + i - layout.offset({corner & 1, corner >> 1 & 1, corner >> 2})];
+          uniform = uniform && other == m;
+          empty = empty && other == 0;
+        }
+        const std::uint8_t kind = uniform && uniform_allowed ? m : std::uint8_t{0};
+        const bool begins = i == 0 || segments_.back().material != kind || segments_.back().empty != empty;
+        if (begins) segments_.push_back({static_cast<std::int32_t>(i), 0, kind, empty});
+        segments_.back().last = static_cast<std::int32_t>(i + 1);
+      }
+    }
+  row_segments_.push_back(static_cast<std::int64_t>(segments_.size()));
+}
+
+template <class T>
+T* const* ForceKernel<T>::row(const lattice::Field<T>& u, std::int64_t j, std::int64_t k) {
+  const RowKernels<T>& kernels = row_kernels<T>();
+  const lattice::Layout& layout = lattice_.layout;
+  const bool rotational = components_ == 6;
+  const std::int64_t n = layout.index(0, j, k);
+  Row<T> row{};
+  for (int c = 0; c < components_; ++c) row.u[c] = u.component(c) + n;
+  for (int slot = 0; slot < lattice::slot_count; ++slot) row.bond[slot] = lattice_.bond.component(slot) + n;
+  row.cell = lattice_.cell.component(0) + n;
+  row.pitch = layout.pitch();
+  row.plane = layout.plane();
+
+  // In ascending order, since a segment of bonds writes whole vectors and may spill into the next segment.
+  const std::int64_t at = j + layout.owned()[1] * k;
+  for (std::int64_t s = row_segments_[at]; s < row_segments_[at + 1]; ++s) {
+    const Segment& segment = segments_[s];
+    if (segment.empty) {
+      for (int c = 0; c < components_; ++c) std::fill(force_[c] + segment.first, force_[c] + segment.last, T{0});
+      continue;
+    }
+    if (segment.material != 0) {
+      (rotational ? kernels.uniform : kernels.uniform_displacement)(stencils_[segment.material], row, segment.first,
+                                                                    segment.last, scratch_, force_.data());
+      continue;
+    }
+    (rotational ? kernels.bonds : kernels.bonds_displacement)(tables_, row, segment.first, segment.last, force_.data());
+    if (volumetric_) kernels.volumetric(tables_, row, segment.first, segment.last, scratch_, force_.data());
+    if (!rotational && lattice_.sharing == material::Sharing::shared)
+      kernels.fit(tables_, row, segment.first, segment.last, scratch_, force_.data());
+    if (!rotational && lattice_.sharing == material::Sharing::plain)
+      add_plain_fit(lattice_, u, j, k, segment.first, segment.last, force_.data());
+  }
+  return force_.data();
+}
+
+template <class T>
+void ForceKernel<T>::write_row(const lattice::Field<T>& u, std::int64_t j, std::int64_t k, lattice::Field<T>& force) {
+  T* const* f = row(u, j, k);
+  const std::size_t bytes = static_cast<std::size_t>(lattice_.layout.owned()[0]) * sizeof(T);
+  for (int c = 0; c < components_; ++c) std::memcpy(force.component(c) + lattice_.layout.index(0, j, k), f[c], bytes);
+}
+
+template <class T>
+void ForceKernel<T>::apply(lattice::Field<T>& u, lattice::Field<T>& force) {
+  const Int3& owned = lattice_.layout.owned();
+  const bool halo = lattice_.halo->active();
+  // Rows away from the border in y and z need no ghosts while the body is not cut across x: they hide the exchange.
+  const bool rows_are_whole = owned[0] == lattice_.grid.nodes()[0] && !lattice_.grid.periodic[0];
+  const auto inner = [&](std::int64_t j, std::int64_t k) {
+    return rows_are_whole && j > 0 && k > 0 && j + 1 < owned[1] && k + 1 < owned[2];
+  };
+  if (halo) lattice_.halo->begin(u);
+  for (std::int64_t k = 0; k < owned[2]; ++k)
+    for (std::int64_t j = 0; j < owned[1]; ++j)
+      if (!halo || inner(j, k)) write_row(u, j, k, force);
+  if (!halo) return;
+  lattice_.halo->end();
+  for (std::int64_t k = 0; k < owned[2]; ++k)
+    for (std::int64_t j = 0; j < owned[1]; ++j)
+      if (!inner(j, k)) write_row(u, j, k, force);
+}
+
+template class ForceKernel<double>;
+template class ForceKernel<float>;
+
+}  // namespace koshi::mechanics

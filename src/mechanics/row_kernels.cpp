@@ -1,0 +1,284 @@
+// Compiled once per instruction set with KOSHI_ISA set to its name. Loops run over whole vectors of `width` nodes, so
+// no remainder loop rounds differently and a node's force does not depend on its place in the row.
+#include "mechanics/row_kernels.h"
+
+#define KOSHI_TEXT_(x) #x
+#define KOSHI_TEXT(x) KOSHI_TEXT_(x)
+
+namespace koshi::mechanics::KOSHI_ISA {
+namespace {
+
+template <class T>
+constexpr std::int64_t width = 64 / static_cast<std::int64_t>(sizeof(T));
+
+// First multiple of 8 at or below x: rows start at i = -8.
+constexpr std::int64_t aligned(std::int64_t x) { return x >= 0 ? x / 8 * 8 : -((-x + 7) / 8 * 8); }
+
+// --- Constant coefficients ------------------------------------------------------------------------------------------
+//
+// The nine rows of a field around the node's row are first combined over y and z into sums (even) and differences
+// (odd). Every output is r(i) + g(i+1) + g(i-1) + h(i+1) - h(i-1), where r, g, h are combinations of those rows at the
+// node, so the shifts along x come last and act on combined rows only.
+
+template <class T>
+struct Combined {
+  T c;                                      // the row itself
+  T even_y, odd_y;                          // rows y+1 and y-1: sum, difference
+  T even_z, odd_z;                          // rows z+1 and z-1
+  T even, odd_y_even_z, even_y_odd_z, odd;  // the four diagonal rows
+
+  inline __attribute__((always_inline)) Combined(const T* f, std::ptrdiff_t y, std::ptrdiff_t z) {
+    c = f[0];
+    even_y = f[y] + f[-y];
+    odd_y = f[y] - f[-y];
+    even_z = f[z] + f[-z];
+    odd_z = f[z] - f[-z];
+    const T upper_even = f[y + z] + f[z - y], upper_odd = f[y + z] - f[z - y];
+    const T lower_even = f[y - z] + f[-y - z], lower_odd = f[y - z] - f[-y - z];
+    even = upper_even + lower_even;
+    even_y_odd_z = upper_even - lower_even;
+    odd_y_even_z = upper_odd + lower_odd;
+    odd = upper_odd - lower_odd;
+  }
+};
+
+// One output component: r, g, h above.
+template <class T>
+struct Output {
+  T r = 0, g = 0, h = 0;
+};
+
+template <class T>
+inline __attribute__((always_inline)) void add_vector(const typename Stencil<T>::Vector& k, const Combined<T>& x,
+                                                      const Combined<T>& y, const Combined<T>& z, Output<T> (&out)[3]) {
+  // Component x: its own axis is the row's.
+  const T cross_x = x.even_y + x.even_z;
+  out[0].r += k.centre * x.c + k.edge_across * cross_x + k.face_across * x.even;
+  out[0].g += k.edge_along * x.c + k.face_along * cross_x + k.body * x.even;
+  out[0].h += k.face_mixed * (y.odd_y + z.odd_z) + k.body_mixed * (y.odd_y_even_z + z.even_y_odd_z);
+  out[1].h += k.face_mixed * x.odd_y + k.body_mixed * x.odd_y_even_z;
+  out[2].h += k.face_mixed * x.odd_z + k.body_mixed * x.even_y_odd_z;
+  // Components y and z.
+  out[1].r += k.centre * y.c + k.edge_along * y.even_y + k.edge_across * y.even_z + k.face_along * y.even +
+              k.face_mixed * z.odd;
+  out[1].g +=
+      k.edge_across * y.c + k.face_along * y.even_y + k.face_across * y.even_z + k.body * y.even + k.body_mixed * z.odd;
+  out[2].r += k.centre * z.c + k.edge_along * z.even_z + k.edge_across * z.even_y + k.face_along * z.even +
+              k.face_mixed * y.odd;
+  out[2].g +=
+      k.edge_across * z.c + k.face_along * z.even_z + k.face_across * z.even_y + k.body * z.even + k.body_mixed * y.odd;
+}
+
+// sum_o c(o) o x v(o).
+template <class T>
+inline __attribute__((always_inline)) void add_cross(const typename Stencil<T>::Cross& k, const Combined<T>& x,
+                                                     const Combined<T>& y, const Combined<T>& z, Output<T> (&out)[3]) {
+  out[0].r += k.edge * (z.odd_y - y.odd_z) + k.face * (z.odd_y_even_z - y.even_y_odd_z);
+  out[0].g += k.face * (z.odd_y - y.odd_z) + k.body * (z.odd_y_even_z - y.even_y_odd_z);
+  out[1].r += k.edge * x.odd_z + k.face * x.even_y_odd_z;
+  out[1].g += k.face * x.odd_z + k.body * x.even_y_odd_z;
+  out[1].h -= k.edge * z.c + k.face * (z.even_y + z.even_z) + k.body * z.even;
+  out[2].r -= k.edge * x.odd_y + k.face * x.odd_y_even_z;
+  out[2].g -= k.face * x.odd_y + k.body * x.odd_y_even_z;
+  out[2].h += k.edge * y.c + k.face * (y.even_y + y.even_z) + k.body * y.even;
+}
+
+template <class T, bool rotational>
+void uniform(const Stencil<T>& stencil, const Row<T>& row, std::int64_t first, std::int64_t last,
+             const Scratch<T>& scratch, T* const force[6]) {
+  constexpr int components = rotational ? 6 : 3;
+  const Stencil<T> k = stencil;
+  const std::ptrdiff_t y = row.pitch, z = row.plane;
+  const T* const u0 = row.u[0];
+  const T* const u1 = row.u[1];
+  const T* const u2 = row.u[2];
+  const T* const w0 = rotational ? row.u[3] : nullptr;
+  const T* const w1 = rotational ? row.u[4] : nullptr;
+  const T* const w2 = rotational ? row.u[5] : nullptr;
+
+  // Combine the rows.
+  for (std::int64_t begin = aligned(first - 1); begin < last + 1; begin += width<T>) {
+#pragma GCC ivdep
+    for (std::int64_t i = begin; i < begin + width<T>; ++i) {
+      Output<T> F[3], M[3];
+      {
+        const Combined<T> ux(u0 + i, y, z), uy(u1 + i, y, z), uz(u2 + i, y, z);
+        add_vector<T>(k.displacement, ux, uy, uz, F);
+        if constexpr (rotational) add_cross<T>(k.coupling, ux, uy, uz, M);
+      }
+      if constexpr (rotational) {
+        const Combined<T> wx(w0 + i, y, z), wy(w1 + i, y, z), wz(w2 + i, y, z);
+        add_vector<T>(k.rotation, wx, wy, wz, M);
+        add_cross<T>(k.coupling, wx, wy, wz, F);
+      }
+      for (int c = 0; c < components; ++c) {
+        const Output<T>& out = c < 3 ? F[c] : M[c - 3];
+        scratch.stencil[3 * c][i] = out.r;
+        scratch.stencil[3 * c + 1][i] = out.g + out.h;
+        scratch.stencil[3 * c + 2][i] = out.g - out.h;
+      }
+    }
+  }
+  // Shift along x.
+  for (int c = 0; c < components; ++c) {
+    const T* const r = scratch.stencil[3 * c];
+    const T* const ahead = scratch.stencil[3 * c + 1];
+    const T* const behind = scratch.stencil[3 * c + 2];
+    T* const f = force[c];
+#pragma GCC ivdep
+    for (std::int64_t i = first; i < last; ++i) f[i] = (r[i] + ahead[i + 1]) + behind[i - 1];
+  }
+}
+
+// --- Bonds of any class
+// -----------------------------------------------------------------------------------------------
+
+template <int slot>
+constexpr int direction(int axis) {
+  constexpr int s[13][3] = {{1, 0, 0}, {0, 1, 0},  {0, 0, 1}, {1, 1, 0},  {-1, 1, 0}, {1, 0, 1},  {-1, 0, 1},
+                            {0, 1, 1}, {0, -1, 1}, {1, 1, 1}, {-1, 1, 1}, {1, -1, 1}, {-1, -1, 1}};
+  return s[slot][axis];
+}
+
+// Adds the bonds of one direction, forward (sign +1) or backward, to `width` nodes. With D = -d s the relative
+// displacement is r = u1 - u2 + d/2 (w1 + w2) x s; the force on the node is -F, its moment -d/2 s x F.
+template <class T, bool rotational, int slot, int sign>
+inline __attribute__((always_inline)) void add_bond(const Tables<T>& tables, const Row<T>& row, std::int64_t begin,
+                                                    T (&F)[6][width<T>]) {
+  constexpr int sx = sign * direction<slot>(0), sy = sign * direction<slot>(1), sz = sign * direction<slot>(2);
+  const std::ptrdiff_t to = sx + row.pitch * sy + row.plane * sz;
+  const std::uint8_t* const bond = row.bond[slot] + begin + (sign > 0 ? 0 : to);
+  const T h = tables.half_d;
+  const T* const kts = tables.kt;
+  const T* const kbs = tables.kb;
+  const T *const u0 = row.u[0] + begin, *const u1 = row.u[1] + begin, *const u2 = row.u[2] + begin;
+  const T *const w0 = rotational ? row.u[3] + begin : u0, *const w1 = rotational ? row.u[4] + begin : u0,
+                 *const w2 = rotational ? row.u[5] + begin : u0;
+#pragma GCC ivdep
+  for (std::int64_t i = 0; i < width<T>; ++i) {
+    const T kt = kts[bond[i]], kb = kbs[bond[i]];
+    T rx = u0[i] - u0[i + to], ry = u1[i] - u1[i + to], rz = u2[i] - u2[i + to];
+    if constexpr (rotational) {
+      const T wx = h * (w0[i] + w0[i + to]), wy = h * (w1[i] + w1[i + to]), wz = h * (w2[i] + w2[i + to]);
+      rx += wy * sz - wz * sy;
+      ry += wz * sx - wx * sz;
+      rz += wx * sy - wy * sx;
+    }
+    const T along = kb * (rx * sx + ry * sy + rz * sz);
+    const T fx = kt * rx + along * sx, fy = kt * ry + along * sy, fz = kt * rz + along * sz;
+    F[0][i] -= fx;
+    F[1][i] -= fy;
+    F[2][i] -= fz;
+    if constexpr (rotational) {
+      F[3][i] -= h * (fz * sy - fy * sz);
+      F[4][i] -= h * (fx * sz - fz * sx);
+      F[5][i] -= h * (fy * sx - fx * sy);
+    }
+  }
+}
+
+template <class T, bool rotational, int slot = 0>
+inline __attribute__((always_inline)) void add_bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t begin,
+                                                     T (&F)[6][width<T>]) {
+  if constexpr (slot < 13) {
+    add_bond<T, rotational, slot, 1>(tables, row, begin, F);
+    add_bond<T, rotational, slot, -1>(tables, row, begin, F);
+    add_bonds<T, rotational, slot + 1>(tables, row, begin, F);
+  }
+}
+
+template <class T, bool rotational>
+void bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, T* const force[6]) {
+  constexpr int components = rotational ? 6 : 3;
+  for (std::int64_t begin = first; begin < last; begin += width<T>) {
+    T F[6][width<T>] = {};
+    add_bonds<T, rotational>(tables, row, begin, F);
+    for (int c = 0; c < components; ++c)
+      for (std::int64_t i = 0; i < width<T>; ++i) force[c][begin + i] = F[c][i];
+  }
+}
+
+// --- Cells
+// ------------------------------------------------------------------------------------------------------------
+//
+// The linear field fitted to a cell's corners has the gradient du_i/dx_j = 1/(4d) sum_s s_j u_i(s). A node row touches
+// four rows of cells; in each, the cell before and the cell after a node in x.
+
+// Sums over the four corners of a cell's low and high x faces, with the signs of y and z.
+template <class T>
+struct CellRow {
+  const T *near, *y, *z, *far;  // the four node rows of the row of cells
+  CellRow(const T* u, std::ptrdiff_t pitch, std::ptrdiff_t plane)
+      : near(u), y(u + pitch), z(u + plane), far(u + pitch + plane) {}
+  T even(std::int64_t i) const { return (near[i] + y[i]) + (z[i] + far[i]); }
+  T odd_y(std::int64_t i) const { return (y[i] - near[i]) + (far[i] - z[i]); }
+  T odd_z(std::int64_t i) const { return (z[i] - near[i]) + (far[i] - y[i]); }
+};
+
+template <class T>
+void volumetric(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last,
+                const Scratch<T>& scratch, T* const force[6]) {
+  for (int side = 0; side < 4; ++side) {
+    const int below_y = side & 1, below_z = side >> 1;
+    const std::ptrdiff_t at = -below_y * row.pitch - below_z * row.plane;
+    const CellRow<T> ux(row.u[0] + at, row.pitch, row.plane), uy(row.u[1] + at, row.pitch, row.plane),
+        uz(row.u[2] + at, row.pitch, row.plane);
+    const std::uint8_t* const cell = row.cell + at;
+    T* const p = scratch.cell[0];
+    // p = kappa d^2 theta / 4 with theta = (sum_s s . u) / (4 d).
+#pragma GCC ivdep
+    for (std::int64_t i = first - 1; i < last; ++i)
+      p[i] = tables.volumetric[cell[i]] *
+             ((ux.even(i + 1) - ux.even(i)) + (uy.odd_y(i) + uy.odd_y(i + 1)) + (uz.odd_z(i) + uz.odd_z(i + 1)));
+    // Force -p s on the cell's corner s; the node is the upper corner of cells below it.
+    const T sy = below_y ? 1 : -1, sz = below_z ? 1 : -1;
+    T *const fx = force[0], *const fy = force[1], *const fz = force[2];
+#pragma GCC ivdep
+    for (std::int64_t i = first; i < last; ++i) {
+      fx[i] += p[i] - p[i - 1];
+      fy[i] -= sy * (p[i] + p[i - 1]);
+      fz[i] -= sz * (p[i] + p[i - 1]);
+    }
+  }
+}
+
+template <class T>
+void fit(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, const Scratch<T>& scratch,
+         T* const force[6]) {
+  for (int side = 0; side < 4; ++side) {
+    const int below_y = side & 1, below_z = side >> 1;
+    const std::ptrdiff_t at = -below_y * row.pitch - below_z * row.plane;
+    const CellRow<T> ux(row.u[0] + at, row.pitch, row.plane), uy(row.u[1] + at, row.pitch, row.plane),
+        uz(row.u[2] + at, row.pitch, row.plane);
+    const std::uint8_t* const cell = row.cell + at;
+    T *const ax = scratch.cell[0], *const ay = scratch.cell[1], *const az = scratch.cell[2];
+    // a = q d w with 8 d w = sum_s s x u and q = kt1/4 + kt2 + kt3.
+#pragma GCC ivdep
+    for (std::int64_t i = first - 1; i < last; ++i) {
+      const T q = tables.fit[cell[i]];
+      ax[i] = q * ((uz.odd_y(i) + uz.odd_y(i + 1)) - (uy.odd_z(i) + uy.odd_z(i + 1)));
+      ay[i] = q * ((ux.odd_z(i) + ux.odd_z(i + 1)) - (uz.even(i + 1) - uz.even(i)));
+      az[i] = q * ((uy.even(i + 1) - uy.even(i)) - (ux.odd_y(i) + ux.odd_y(i + 1)));
+    }
+    // Force a x s; s_x = +1 for the cell before the node, -1 for the one after it.
+    const T sy = below_y ? 1 : -1, sz = below_z ? 1 : -1;
+    T *const fx = force[0], *const fy = force[1], *const fz = force[2];
+#pragma GCC ivdep
+    for (std::int64_t i = first; i < last; ++i) {
+      fx[i] += sz * (ay[i] + ay[i - 1]) - sy * (az[i] + az[i - 1]);
+      fy[i] += (az[i - 1] - az[i]) - sz * (ax[i] + ax[i - 1]);
+      fz[i] += sy * (ax[i] + ax[i - 1]) - (ay[i - 1] - ay[i]);
+    }
+  }
+}
+
+}  // namespace
+
+extern const RowKernels<double> kernels_double{uniform<double, true>, uniform<double, false>, bonds<double, true>,
+                                               bonds<double, false>,  volumetric<double>,     fit<double>,
+                                               KOSHI_TEXT(KOSHI_ISA)};
+extern const RowKernels<float> kernels_float{uniform<float, true>, uniform<float, false>, bonds<float, true>,
+                                             bonds<float, false>,  volumetric<float>,     fit<float>,
+                                             KOSHI_TEXT(KOSHI_ISA)};
+
+}  // namespace koshi::mechanics::KOSHI_ISA

@@ -1,0 +1,21 @@
+// Which material each cell of the body is.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+#include "koshi/definition.h"
+#include "koshi/grid.h"
+#include "koshi/spring_lattice.h"
+
+namespace koshi::model {
+
+/// The grid of the body; throws InputError when a size is no positive multiple of the spacing or the body has more
+/// cells than can be counted.
+lattice::Grid make_grid(const Definition& definition);
+
+/// Material index (0 = empty) of a global cell: the body's material or image, then the regions, later ones winning. A
+/// cell belongs to a region when its centre lies inside or on the border. The definition must outlive the function.
+std::function<std::uint8_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid);
+
+}  // namespace koshi::model
