@@ -54,14 +54,15 @@ struct MaterialDefinition {
 struct RegionDefinition {
   enum class Shape { box, sphere, cylinder, half_space, stl };
   Shape shape = Shape::box;
-  std::string material;    ///< a material's name or "void"
-  Vec3 min{}, max{};       ///< box [m]
-  Vec3 center{};           ///< sphere [m]
-  double radius = 0;       ///< sphere, cylinder [m]
-  Vec3 start{}, end{};     ///< axis of the cylinder [m]
-  Vec3 point{}, normal{};  ///< half-space: the side of `point` to which `normal` does not point
-  std::string file;        ///< stl: a closed surface
-  double scale = 1;        ///< stl: length of the file's unit [m]
+  std::string material;              ///< a material's name or "void"
+  Vec3 min{}, max{};                 ///< box [m]
+  Vec3 center{};                     ///< sphere [m]
+  double radius = 0;                 ///< sphere, cylinder [m]
+  Vec3 start{}, end{};               ///< axis of the cylinder [m]
+  Vec3 point{}, normal{};            ///< half-space: the side of `point` to which `normal` does not point
+  std::string file;                  ///< stl: a closed surface
+  double scale = 1;                  ///< stl: length of the file's unit [m]
+  std::vector<std::uint8_t> inside;  ///< stl: 1 for each cell inside, x fastest; filled from the file
 };
 
 enum class Face { x_min, x_max, y_min, y_max, z_min, z_max };

@@ -26,7 +26,7 @@ struct BondClass {
 /// Cells, bonds and springs on one rank's nodes and ghosts.
 /// - cell: component 0, material index of a cell (0 = empty) at the index of its lowest corner; known for the cells
 ///   that touch an owned node.
-/// - bond: component = slot, class of a node's forward bond (0 = absent); known where one end is owned.
+/// - bond: component = slot, class of a node's forward bond (0 = absent); known on owned and ghost nodes.
 struct SpringLattice {
   static constexpr int max_materials = 255;
   static constexpr int max_classes = 255;

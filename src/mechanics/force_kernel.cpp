@@ -62,8 +62,8 @@ void ForceKernel<T>::make_segments() {
   const Int3& owned = layout.owned();
   const std::uint8_t* cell = lattice_.cell.component(0);
   // With plain springs and the least-squares rotation the parts of a cell depend on its neighbours: no node is uniform.
-  const bool uniform_allowed = !(lattice_.sharing == material::Sharing::plain &&
-                                 lattice_.kinematics == material::Kinematics::least_squares);
+  const bool uniform_allowed =
+      !(lattice_.sharing == material::Sharing::plain && lattice_.kinematics == material::Kinematics::least_squares);
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j) {
       row_segments_.push_back(static_cast<std::int64_t>(segments_.size()));

@@ -1,5 +1,5 @@
-// Internal forces of the lattice, gathered row by row: every node sums over its own bonds and cells in a fixed order and
-// writes only itself, so results do not depend on the partition among ranks.
+// Internal forces of the lattice, gathered row by row: every node sums over its own bonds and cells in a fixed order
+// and writes only itself, so results do not depend on the partition among ranks.
 #pragma once
 
 #include <array>
@@ -11,8 +11,9 @@
 
 namespace koshi::mechanics {
 
-/// F = -K u for the springs of one lattice, in precision T. A node with the same material in its eight cells is served by
-/// a stencil with constant coefficients, the others by their bonds and cells one by one. The lattice must outlive it.
+/// F = -K u for the springs of one lattice, in precision T. A node with the same material in its eight cells is served
+/// by a stencil with constant coefficients, the others by their bonds and cells one by one. The lattice must outlive
+/// it.
 template <class T>
 class ForceKernel {
  public:

@@ -6,9 +6,7 @@
 namespace koshi::mechanics {
 namespace {
 
-Vec3 sign_of(int corner) {
-  return {corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
-}
+Vec3 sign_of(int corner) { return {corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0}; }
 
 }  // namespace
 
@@ -48,9 +46,9 @@ void add_plain_fit(const model::SpringLattice& body, const lattice::Field<T>& u,
     }
 }
 
-template void add_plain_fit<double>(const model::SpringLattice&, const lattice::Field<double>&, std::int64_t, std::int64_t,
-                                    std::int64_t, std::int64_t, double* const[6]);
-template void add_plain_fit<float>(const model::SpringLattice&, const lattice::Field<float>&, std::int64_t, std::int64_t,
-                                   std::int64_t, std::int64_t, float* const[6]);
+template void add_plain_fit<double>(const model::SpringLattice&, const lattice::Field<double>&, std::int64_t,
+                                    std::int64_t, std::int64_t, std::int64_t, double* const[6]);
+template void add_plain_fit<float>(const model::SpringLattice&, const lattice::Field<float>&, std::int64_t,
+                                   std::int64_t, std::int64_t, std::int64_t, float* const[6]);
 
 }  // namespace koshi::mechanics

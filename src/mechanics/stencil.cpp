@@ -8,8 +8,8 @@ template <class T>
 Stencil<T> make_stencil(const material::Springs& springs, double d, material::Kinematics kinematics) {
   const Eigen::MatrixXd K = cell_matrix(springs, d, kinematics);
   const int components = static_cast<int>(K.rows()) / 8;
-  // Force on component `to` of a node from component `from` of its neighbour at offset o: the sum over all pairs of cell
-  // corners that lie o apart.
+  // Force on component `to` of a node from component `from` of its neighbour at offset o: the sum over all pairs of
+  // cell corners that lie o apart.
   const auto entry = [&](const std::array<int, 3>& o, int to, int from) {
     double sum = 0;
     for (int a = 0; a < 8; ++a)
@@ -21,8 +21,8 @@ Stencil<T> make_stencil(const material::Springs& springs, double d, material::Ki
     return static_cast<T>(sum);
   };
   const auto vector = [&](int c) {
-    return typename Stencil<T>::Vector{entry({0, 0, 0}, c, c),     entry({1, 0, 0}, c, c),     entry({0, 1, 0}, c, c),
-                                       entry({1, 1, 0}, c, c),     entry({0, 1, 1}, c, c),     entry({1, 1, 1}, c, c),
+    return typename Stencil<T>::Vector{entry({0, 0, 0}, c, c),     entry({1, 0, 0}, c, c),    entry({0, 1, 0}, c, c),
+                                       entry({1, 1, 0}, c, c),     entry({0, 1, 1}, c, c),    entry({1, 1, 1}, c, c),
                                        entry({1, 1, 0}, c, c + 1), entry({1, 1, 1}, c, c + 1)};
   };
   Stencil<T> stencil{vector(0), {}, {}};

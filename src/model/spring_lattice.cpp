@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "koshi/error.h"
 #include "lattice/halo.h"
@@ -38,10 +39,46 @@ std::vector<std::int64_t> offsets_around(const lattice::Layout& layout, const st
   return offsets;
 }
 
-BondClass make_class(lattice::Family family, const std::array<std::uint8_t, 4>& materials, material::Sharing sharing,
+/// Family of a bond and the materials of the up to four cells around it, ascending.
+using ClassKey = std::array<std::uint8_t, 5>;
+
+// Calls f(slot, node, key) for the forward bonds of all owned nodes that have a solid cell around them.
+template <class F>
+void for_each_bond(const SpringLattice& body, F&& f) {
+  const std::uint8_t* cell = body.cell.component(0);
+  for (int slot = 0; slot < lattice::slot_count; ++slot) {
+    const auto around = offsets_around(body.layout, slots[slot].s);
+    lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
+      ClassKey key{static_cast<std::uint8_t>(slots[slot].family)};
+      for (std::size_t c = 0; c < around.size(); ++c) key[c + 1] = cell[n + around[c]];
+      std::sort(key.begin() + 1, key.end());
+      if (key.back() != 0) f(slot, n, key);
+    });
+  }
+}
+
+// The classes that occur on any rank, in ascending order (collective).
+std::set<ClassKey> all_classes(const SpringLattice& body) {
+  std::set<ClassKey> own;
+  for_each_bond(body, [&](int, std::int64_t, const ClassKey& key) { own.insert(key); });
+  std::string bytes;
+  for (const ClassKey& key : own) bytes.append(key.begin(), key.end());
+  const Communicator& communicator = body.halo->communicator();
+  bytes = communicator.broadcast(communicator.gather(bytes));
+  std::set<ClassKey> all;
+  for (std::size_t at = 0; at < bytes.size(); at += ClassKey{}.size()) {
+    ClassKey key;
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), key.size(), key.begin());
+    all.insert(key);
+  }
+  return all;
+}
+
+BondClass make_class(lattice::Family family, const ClassKey& key, material::Sharing sharing,
                      const std::vector<material::Springs>& springs) {
   BondClass bond;
-  for (const std::uint8_t m : materials) {
+  for (std::size_t c = 1; c < key.size(); ++c) {
+    const std::uint8_t m = key[c];
     if (m == 0) continue;
     ++bond.solid_cells;
     bond.kn += springs[m].kn[family];
@@ -107,41 +144,29 @@ void make_bonds(SpringLattice& body, material::Sharing sharing, material::Kinema
   body.kinematics = kinematics;
   body.springs = std::move(springs);
   body.classes.assign(1, BondClass{});
-  const lattice::Layout& layout = body.layout;
-  const Int3& owned = layout.owned();
-  const std::uint8_t* cell = body.cell.component(0);
 
-  // Bonds with at least one owned end; all cells around such a bond are known. Classes are numbered as they are met.
-  body.bond = lattice::Field<std::uint8_t>(layout, lattice::slot_count);
-  std::map<std::pair<int, std::array<std::uint8_t, 4>>, std::uint8_t> known;
-  for (int slot = 0; slot < lattice::slot_count; ++slot) {
-    const auto& [s, family] = slots[slot];
-    const auto around = offsets_around(layout, s);
-    std::uint8_t* bond = body.bond.component(slot);
-    const auto class_of = [&](const std::array<std::uint8_t, 4>& materials) {
-      const auto [entry, fresh] = known.try_emplace({family, materials}, std::uint8_t{0});
-      if (!fresh) return entry->second;
-      const BondClass made = make_class(family, materials, sharing, body.springs);
-      // A family the unit cell does not have leaves its bonds absent.
-      if (made.kn == 0 && made.kt == 0) return entry->second;
-      if (body.classes.size() > SpringLattice::max_classes)
-        throw InputError(fmt::format(
-            "the mixtures of materials around bonds need more than {} kinds of bonds; merge similar materials "
-            "(about 6 may touch each other in every combination)",
-            SpringLattice::max_classes));
-      entry->second = static_cast<std::uint8_t>(body.classes.size());
-      body.classes.push_back(made);
-      return entry->second;
-    };
-    lattice::for_each(layout, {-1, -1, -1}, {owned[0] + 1, owned[1] + 1, owned[2] + 1},
-                      [&](auto i, auto j, auto k, auto n) {
-                        if (!layout.owns({i, j, k}) && !layout.owns({i + s[0], j + s[1], k + s[2]})) return;
-                        std::array<std::uint8_t, 4> materials{};
-                        for (std::size_t c = 0; c < around.size(); ++c) materials[c] = cell[n + around[c]];
-                        std::sort(materials.begin(), materials.end());
-                        if (materials.back() != 0) bond[n] = class_of(materials);
-                      });
+  // Every rank numbers the classes alike: by family, then by the materials around the bond.
+  const auto classes = all_classes(body);
+  std::map<ClassKey, std::uint8_t> number;
+  for (const ClassKey& key : classes) {
+    const BondClass made = make_class(static_cast<lattice::Family>(key[0]), key, sharing, body.springs);
+    // A family the unit cell does not have leaves its bonds absent.
+    if (made.kn == 0 && made.kt == 0) continue;
+    if (body.classes.size() > SpringLattice::max_classes)
+      throw InputError(fmt::format(
+          "the mixtures of materials around bonds need more than {} kinds of bonds; merge similar materials "
+          "(about 6 may touch each other in every combination)",
+          SpringLattice::max_classes));
+    number[key] = static_cast<std::uint8_t>(body.classes.size());
+    body.classes.push_back(made);
   }
+
+  body.bond = lattice::Field<std::uint8_t>(body.layout, lattice::slot_count);
+  for_each_bond(body, [&](int slot, std::int64_t n, const ClassKey& key) {
+    const auto found = number.find(key);
+    if (found != number.end()) body.bond.component(slot)[n] = found->second;
+  });
+  body.halo->exchange(body.bond);
 }
 
 }  // namespace koshi::model
