@@ -6,7 +6,7 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -38,8 +38,8 @@ struct EngineeringConstants {
   double zener_ratio = 0;  ///< 2 C_1212 / (C_1111 - C_1122), means over the axes; 1 for an isotropic lattice
 };
 
-/// Errors: std::domain_error when C is singular (a lattice that resists no strain of some kind).
-EngineeringConstants engineering_constants(const ElasticTensor& C);
+/// Nothing when C is singular: some strain meets no resistance.
+std::optional<EngineeringConstants> engineering_constants(const ElasticTensor& C);
 
 /// Bonds of one direction and length, all with the same stiffness.
 struct BondGroup {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 
 #include "koshi/lattice.h"
 
@@ -25,6 +26,10 @@ struct Elastic {
 
   double lambda() const { return youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)); }
   double mu() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
+
+  /// Speeds of compression and shear waves [m/s].
+  double p_wave_speed() const { return std::sqrt((lambda() + 2 * mu()) / density); }
+  double s_wave_speed() const { return std::sqrt(mu() / density); }
 };
 
 /// Springs of one material, by bond family: the full stiffness of a bond inside the bulk, and the volumetric modulus.

@@ -1,5 +1,3 @@
-#include <stdexcept>
-
 #include <Eigen/Dense>
 
 #include "koshi/calibration.h"
@@ -54,13 +52,13 @@ ElasticTensor lattice_tensor(std::span<const BondGroup> bonds, double volume, do
   return C;
 }
 
-EngineeringConstants engineering_constants(const ElasticTensor& C) {
+std::optional<EngineeringConstants> engineering_constants(const ElasticTensor& C) {
   // Compliance in Voigt's form, where shear strains count twice.
   Eigen::Matrix<double, 6, 6> stiffness;
   for (int row = 0; row < 6; ++row)
     for (int column = 0; column < 6; ++column) stiffness(row, column) = C.voigt[row][column];
   const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> lu(stiffness);
-  if (!lu.isInvertible()) throw std::domain_error("the stiffness tensor is singular");
+  if (!lu.isInvertible()) return std::nullopt;
   const Eigen::Matrix<double, 6, 6> S = lu.inverse();
 
   EngineeringConstants constants;

@@ -161,7 +161,7 @@ TEST(Calibrate, AnySetOfBonds) {
     bond.kn = k.kn;
     bond.kt = k.kt;
   }
-  EXPECT_NEAR(engineering_constants(lattice_tensor(bonds, V)).zener_ratio, 1, 1e-12);
+  EXPECT_NEAR(engineering_constants(lattice_tensor(bonds, V)).value().zener_ratio, 1, 1e-12);
 }
 
 TEST(Calibrate, SaysWhatIsWrong) {
