@@ -75,6 +75,9 @@ struct BondStiffness {
 /// Cube-III {"C1122", "C1111"}.
 std::vector<std::string> default_equations(lattice::CellType cell);
 
+/// Errors: InputError when an equation cannot be read; see `calibrate`.
+void check_equation(const std::string& equation);
+
 /// The kn, kt for which chosen entries of (N21) equal those of the elastic tensor. Stiffnesses in `bonds` are ignored.
 /// `equations`: two linear combinations of entries ("C1122", "C1111 - 2 C1212"), or one, and then kn = kt.
 /// `axes`: which body axes are 1, 2, 3 of C; a permutation of "xyz".

@@ -30,6 +30,7 @@ struct LatticeDefinition {
   std::vector<std::string> equations;
   /// Calibration "paper": which body axes are 1, 2, 3 of C; a permutation of "xyz".
   std::string axes = "xyz";
+  bool operator==(const LatticeDefinition&) const = default;
 };
 
 /// [body]
@@ -42,12 +43,14 @@ struct BodyDefinition {
   std::map<int, std::string> image_materials;  ///< image value -> material name or "void" (key `materials`)
   /// Material of each cell, x fastest, 0 = empty, k = materials[k - 1]; filled from the image, or by a program.
   std::vector<std::uint8_t> cells;
+  bool operator==(const BodyDefinition&) const = default;
 };
 
 /// [material.NAME]
 struct MaterialDefinition {
   std::string name;
   material::Elastic elastic;
+  bool operator==(const MaterialDefinition&) const = default;
 };
 
 /// [[region]]: gives the cells whose centre lies inside the shape a material; later regions win.
@@ -63,6 +66,7 @@ struct RegionDefinition {
   std::string file;                  ///< stl: a closed surface
   double scale = 1;                  ///< stl: length of the file's unit [m]
   std::vector<std::uint8_t> inside;  ///< stl: 1 for each cell inside, x fastest; filled from the file
+  bool operator==(const RegionDefinition&) const = default;
 };
 
 enum class Face { x_min, x_max, y_min, y_max, z_min, z_max };
@@ -73,6 +77,7 @@ struct Selection {
   std::optional<Face> face;
   std::optional<std::pair<Vec3, Vec3>> box;  ///< {min, max} [m], nodes inside or on the border
   std::optional<Vec3> point;                 ///< [m]
+  bool operator==(const Selection&) const = default;
 };
 
 /// Factor over time, piecewise linear, constant outside; pairs {t [s], factor}, t ascending; empty: 1.
@@ -91,6 +96,7 @@ struct BoundaryDefinition {
   std::optional<Vec3> center;  ///< of the twist [m]; unset: mean position of the selected nodes
   double ramp = 0;             ///< [s], displacement and twist rise linearly from 0; velocity too
   History history;             ///< factor on displacement, velocity and twist
+  bool operator==(const BoundaryDefinition&) const = default;
 };
 
 /// [[load]]: exactly one of force, traction, pressure, acceleration.
@@ -104,6 +110,7 @@ struct LoadDefinition {
   std::optional<double> pressure;                  ///< [Pa], against the face's outward normal
   std::optional<Vec3> acceleration;                ///< body force per mass [m/s^2]
   History history;
+  bool operator==(const LoadDefinition&) const = default;
 };
 
 struct DampingDefinition {
@@ -111,6 +118,7 @@ struct DampingDefinition {
   Kind kind = Kind::local;
   double factor = 0.8;  ///< local: alpha of (N27), 0 <= alpha < 1
   double rate = 0;      ///< viscous: c/m of (N1) [1/s]
+  bool operator==(const DampingDefinition&) const = default;
 };
 
 /// [analysis]
@@ -124,6 +132,7 @@ struct AnalysisDefinition {
   double safety = 0.9;               ///< of the automatic step: its ratio to the stable limit
   DampingDefinition damping;         ///< unset in a dynamic run: none
   std::string start_from;            ///< output directory of an earlier run whose displacements are the start
+  bool operator==(const AnalysisDefinition&) const = default;
 };
 
 /// [[probe]]
@@ -134,6 +143,7 @@ struct ProbeDefinition {
   Selection selection;
   Quantity quantity = Quantity::displacement;
   std::optional<Reduce> reduce;  ///< unset: sum for reactions, else mean
+  bool operator==(const ProbeDefinition&) const = default;
 };
 
 /// [output]
@@ -145,6 +155,7 @@ struct OutputDefinition {
   std::optional<double> checkpoint_every;  ///< [s] simulated time
   std::optional<double> checkpoint_wall;   ///< [s] wall time; key checkpoint_every_wall
   bool report = false;                     ///< write report.html
+  bool operator==(const OutputDefinition&) const = default;
 };
 
 /// Where each key of the input stood, by path ("boundary[0].face"); empty for a definition made in code.
@@ -175,6 +186,13 @@ struct Definition {
 
   /// The calibration in force: the one set, else the default for the cell and sharing.
   material::Calibration calibration() const;
+
+  /// Equal input; where it stood (places, directory) counts nothing.
+  bool operator==(const Definition& other) const;
 };
+
+/// Checks all that a definition shows by itself, without the grid: ranges, names, contradictions.
+/// Errors: InputError at the place of the wrong key; where no place is known, its path stands for it.
+void check(const Definition& definition);
 
 }  // namespace koshi::model

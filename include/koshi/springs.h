@@ -30,6 +30,8 @@ struct Elastic {
   /// Speeds of compression and shear waves [m/s].
   double p_wave_speed() const { return std::sqrt((lambda() + 2 * mu()) / density); }
   double s_wave_speed() const { return std::sqrt(mu() / density); }
+
+  bool operator==(const Elastic&) const = default;
 };
 
 /// Springs of one material, by bond family: the full stiffness of a bond inside the bulk, and the volumetric modulus.

@@ -97,6 +97,8 @@ std::vector<std::string> default_equations(lattice::CellType cell) {
   return {};
 }
 
+void check_equation(const std::string& equation) { parse_equation(equation); }
+
 BondStiffness calibrate(std::span<const BondGroup> bonds, double volume, const Elastic& elastic,
                         std::span<const std::string> equations, const std::string& axes) {
   if (equations.empty() || equations.size() > 2)

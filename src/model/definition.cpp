@@ -1,5 +1,7 @@
 #include "koshi/definition.h"
 
+#include <tuple>
+
 namespace koshi::model {
 
 Place Places::find(std::string path) const {
@@ -18,6 +20,14 @@ material::Calibration Definition::calibration() const {
   if (lattice.calibration) return *lattice.calibration;
   if (lattice.springs == material::Sharing::plain) return Calibration::paper;
   return lattice.cell == lattice::CellType::cube_iii ? Calibration::bending_exact : Calibration::isotropic;
+}
+
+bool Definition::operator==(const Definition& other) const {
+  const auto input = [](const Definition& d) {
+    return std::tie(d.title, d.lattice, d.body, d.materials, d.regions, d.boundaries, d.loads, d.analysis, d.probes,
+                    d.output);
+  };
+  return input(*this) == input(other);
 }
 
 }  // namespace koshi::model

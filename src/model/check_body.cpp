@@ -1,0 +1,172 @@
+// Checks of the lattice, the body, its materials and regions.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/suggest.h"
+#include "koshi/calibration.h"
+#include "model/check.h"
+#include "model/choices.h"
+
+namespace koshi::model {
+namespace {
+
+void check_lattice(const Checker& check) {
+  const LatticeDefinition& lattice = check.definition.lattice;
+  check.positive("lattice.spacing", lattice.spacing, "m");
+
+  const material::Calibration calibration = check.definition.calibration();
+  if (calibration == material::Calibration::bending_exact && lattice.cell != lattice::CellType::cube_iii)
+    check.fail(
+        "lattice.calibration",
+        fmt::format("calibration \"bending-exact\" needs cell \"cube-III\", not \"{}\"; take \"isotropic\", or the "
+                    "cell \"cube-III\"",
+                    name(lattice.cell)));
+
+  if (calibration != material::Calibration::paper) {
+    if (!lattice.equations.empty())
+      check.fail("lattice.equations",
+                 fmt::format("equations belong to calibration \"paper\", not \"{}\"; leave them out",
+                             choice_name(calibration)));
+    return;
+  }
+  const std::size_t count = lattice.cell == lattice::CellType::cube_i ? 1 : 2;
+  if (!lattice.equations.empty() && lattice.equations.size() != count)
+    check.fail("lattice.equations",
+               fmt::format("{} equation{}; {} takes {}", lattice.equations.size(),
+                           lattice.equations.size() == 1 ? "" : "s", name(lattice.cell),
+                           count == 1 ? "one, such as [\"C1111-C1122\"]" : "two, such as [\"C1122\", \"C1212\"]"));
+  for (std::size_t i = 0; i < lattice.equations.size(); ++i) {
+    try {
+      material::check_equation(lattice.equations[i]);
+    } catch (const InputError& error) {
+      check.fail(fmt::format("lattice.equations[{}]", i), error.message());
+    }
+  }
+  std::string axes = lattice.axes;
+  std::sort(axes.begin(), axes.end());
+  if (axes != "xyz")
+    check.fail("lattice.axes",
+               fmt::format("axes is \"{}\"; expected a permutation of \"xyz\" such as \"yxz\"", lattice.axes));
+}
+
+void check_materials(const Checker& check) {
+  const auto& materials = check.definition.materials;
+  if (materials.empty()) check.fail("material", "there is no material; define one such as [material.rock]");
+  // Cells name their material by a byte, 0 stands for none.
+  constexpr std::size_t most = 255;
+  if (materials.size() > most)
+    check.fail("material", fmt::format("{} materials; at most {} fit in a byte per cell", materials.size(), most));
+  std::vector<std::string> names;
+  for (const MaterialDefinition& material : materials) {
+    const std::string path = "material." + material.name;
+    if (material.name.empty()) check.fail("material", "a material has an empty name; name it, such as [material.rock]");
+    if (material.name == "void") check.fail(path, "\"void\" means no material; choose another name");
+    if (std::find(names.begin(), names.end(), material.name) != names.end())
+      check.fail(path, fmt::format("two materials are called \"{}\"; names must differ", material.name));
+    names.push_back(material.name);
+    check.positive(path + ".youngs_modulus", material.elastic.youngs_modulus, "Pa");
+    check.positive(path + ".density", material.elastic.density, "kg/m^3");
+    const double nu = material.elastic.poissons_ratio;
+    if (!(nu > -1 && nu < 0.5))
+      check.fail(path + ".poissons_ratio",
+                 fmt::format("poissons_ratio is {:.12g}; it must lie between -1 and 0.5, else the shear or the bulk "
+                             "modulus is not positive and finite",
+                             nu));
+  }
+}
+
+void check_material_name(const Checker& check, const std::string& path, const std::string& material) {
+  if (material == "void") return;
+  std::vector<std::string> names;
+  for (const MaterialDefinition& known : check.definition.materials) names.push_back(known.name);
+  if (std::find(names.begin(), names.end(), material) != names.end()) return;
+  names.emplace_back("void");
+  check.fail(path, fmt::format("there is no material \"{}\"; {}", material, suggestion(material, names)));
+}
+
+void check_size(const Checker& check) {
+  const double d = check.definition.lattice.spacing;
+  const Vec3& size = check.definition.body.size;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const std::string path = fmt::format("body.size[{}]", a);
+    if (!(size[a] > 0) || !std::isfinite(size[a]))
+      check.fail(path, fmt::format("size along {} is {:.12g} m; it must be positive", "xyz"[a], size[a]));
+    // Sizes and spacing are rounded decimals: a millionth of a cell is no difference.
+    constexpr double slack = 1e-6;
+    constexpr double most = 2147483647;
+    const double cells = size[a] / d;
+    if (cells > most)
+      check.fail(path, fmt::format("size along {} is {:.12g} m, {:.3g} spacings of {:.12g} m; at most {:.0f} are "
+                                   "possible, take a larger spacing",
+                                   "xyz"[a], size[a], cells, d, most));
+    if (cells > 1 - slack && std::abs(cells - std::round(cells)) <= slack) continue;
+    const double below = std::floor(cells) * d;
+    const std::string nearest =
+        below > 0 ? fmt::format("{:.12g} m or {:.12g} m", below, below + d) : fmt::format("{:.12g} m", d);
+    check.fail(path, fmt::format("size along {} is {:.12g} m, {:.6g} spacings of {:.12g} m, but must be a whole number "
+                                 "of them; the nearest right sizes: {}",
+                                 "xyz"[a], size[a], cells, d, nearest));
+  }
+}
+
+void check_box_of_cells(const Checker& check) {
+  const BodyDefinition& body = check.definition.body;
+  check.finite("body.origin", body.origin);
+  if (body.image.empty()) {
+    check_size(check);
+    if (body.cells.empty()) check_material_name(check, "body.material", body.material);
+    return;
+  }
+  const std::vector<std::string> formats{".npy", ".vti", ".mha", ".nrrd"};
+  if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return body.image.ends_with(suffix); }))
+    check.fail("body.image",
+               fmt::format("the image \"{}\" is in no known format; known: {}", body.image, quoted_list(formats)));
+  if (body.image_materials.empty())
+    check.fail("body", "an image needs materials, such as materials = { 0 = \"void\", 1 = \"rock\" }");
+  for (const auto& [value, material] : body.image_materials)
+    check_material_name(check, fmt::format("body.materials.{}", value), material);
+}
+
+void check_region(const Checker& check, const std::string& path, const RegionDefinition& region) {
+  using Shape = RegionDefinition::Shape;
+  check_material_name(check, path + ".material", region.material);
+  switch (region.shape) {
+    case Shape::box:
+      check.ordered(path, region.min, region.max);
+      break;
+    case Shape::sphere:
+      check.finite(path + ".center", region.center);
+      check.positive(path + ".radius", region.radius, "m");
+      break;
+    case Shape::cylinder:
+      check.finite(path + ".start", region.start);
+      check.finite(path + ".end", region.end);
+      check.positive(path + ".radius", region.radius, "m");
+      if (region.start == region.end)
+        check.fail(path + ".end", "start and end of the cylinder are the same point; its axis needs a length");
+      break;
+    case Shape::half_space:
+      check.finite(path + ".point", region.point);
+      check.finite(path + ".normal", region.normal);
+      if (region.normal == Vec3{})
+        check.fail(path + ".normal", "normal is zero; it needs a direction such as [0, 0, 1]");
+      break;
+    case Shape::stl:
+      check.positive(path + ".scale", region.scale, "m");
+      if (region.file.empty()) check.fail(path + ".file", "file is empty; name a closed surface such as \"part.stl\"");
+      break;
+  }
+}
+
+}  // namespace
+
+void check_body(const Checker& check) {
+  check_lattice(check);
+  check_materials(check);
+  check_box_of_cells(check);
+  for (std::size_t i = 0; i < check.definition.regions.size(); ++i)
+    check_region(check, fmt::format("region[{}]", i), check.definition.regions[i]);
+}
+
+}  // namespace koshi::model

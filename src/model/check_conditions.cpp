@@ -1,0 +1,164 @@
+// Checks of boundaries, loads and probes.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/check.h"
+#include "model/choices.h"
+
+namespace koshi::model {
+namespace {
+
+// Names head columns and keys of the output: not empty, of one line, different.
+template <class D>
+void check_names(const Checker& check, const std::string& section, const std::vector<D>& list) {
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    const std::string path = fmt::format("{}[{}].name", section, i);
+    const std::string& name = list[i].name;
+    if (name.empty())
+      check.fail(path, fmt::format("the name of a {} is empty; give it a name, such as \"top\"", section));
+    if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+      check.fail(path, fmt::format("the name of a {} holds a control character; names are of one line", section));
+    for (std::size_t j = 0; j < i; ++j)
+      if (list[j].name == name)
+        check.fail(path, fmt::format("two {} tables are called \"{}\"; names must differ", section, name));
+  }
+}
+
+void check_selection(const Checker& check, const std::string& path, const std::string& title, const Selection& s) {
+  std::vector<std::string> given;
+  if (s.face) given.emplace_back("face");
+  if (s.box) given.emplace_back("box");
+  if (s.point) given.emplace_back("point");
+  if (given.empty()) check.fail(path, fmt::format("{} selects nothing; give one of face, box, point", title));
+  if (given.size() > 1)
+    check.fail(path + "." + given[1],
+               fmt::format("{} has both {}; give one of face, box, point", title, fmt::join(given, " and ")));
+  if (s.box) check.ordered(path + ".box", s.box->first, s.box->second);
+  if (s.point) check.finite(path + ".point", *s.point);
+}
+
+void check_history(const Checker& check, const std::string& path, const History& history) {
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const std::string pair = fmt::format("{}[{}]", path, i);
+    check.finite(pair, history[i][0]);
+    check.finite(pair, history[i][1]);
+    if (i > 0 && !(history[i][0] > history[i - 1][0]))
+      check.fail(pair, fmt::format("time {:.12g} s does not come after {:.12g} s; the times of a history must rise",
+                                   history[i][0], history[i - 1][0]));
+  }
+}
+
+void check_boundary(const Checker& check, const std::string& path, const BoundaryDefinition& boundary) {
+  const std::string title = fmt::format("boundary \"{}\"", boundary.name);
+  check_selection(check, path, title, boundary.selection);
+
+  // Each component may be prescribed once; a twist about an axis takes the two displacements across it and the
+  // rotation about it.
+  std::array<std::string, 6> prescribed_by;
+  const auto prescribe = [&](std::size_t c, const std::string& key, const std::string& at) {
+    const std::string component(component_names[c]);
+    if (!prescribed_by[c].empty())
+      check.fail(path + "." + at, fmt::format("{} prescribes {} by {} and by {}; keep one of them", title, component,
+                                              prescribed_by[c], key));
+    prescribed_by[c] = key;
+  };
+  for (std::size_t c = 0; c < 6; ++c) {
+    const std::string component(component_names[c]);
+    if (boundary.fix[c]) prescribe(c, "fix", "fix");
+    if (boundary.displacement[c]) {
+      prescribe(c, "displacement", "displacement." + component);
+      check.finite(path + ".displacement." + component, *boundary.displacement[c]);
+    }
+    if (boundary.velocity[c]) {
+      prescribe(c, "velocity", "velocity." + component);
+      check.finite(path + ".velocity." + component, *boundary.velocity[c]);
+    }
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!boundary.twist[axis]) continue;
+    const std::string at = fmt::format("twist.{}", component_names[axis]);
+    check.finite(path + "." + at, *boundary.twist[axis]);
+    for (const std::size_t c : {(axis + 1) % 3, (axis + 2) % 3, axis + 3})
+      prescribe(c, fmt::format("twist about {}", component_names[axis]), at);
+  }
+  if (std::all_of(prescribed_by.begin(), prescribed_by.end(), [](const auto& key) { return key.empty(); }))
+    check.fail(path, fmt::format("{} prescribes nothing; give it fix, displacement, velocity or twist", title));
+
+  // The fitted rotation of a cell is no unknown: a fixed one is met by fixed displacements, a turned one is not.
+  if (check.definition.lattice.kinematics == material::Kinematics::least_squares)
+    for (std::size_t c = 3; c < 6; ++c)
+      for (const bool velocity : {false, true}) {
+        const auto& value = velocity ? boundary.velocity[c] : boundary.displacement[c];
+        if (value && *value != 0)
+          check.fail(fmt::format("{}.{}.{}", path, velocity ? "velocity" : "displacement", component_names[c]),
+                     fmt::format("{} prescribes the rotation {}, but least-squares kinematics has no rotations; take "
+                                 "twist, or kinematics \"rotational\"",
+                                 title, component_names[c]));
+      }
+
+  if (check.definition.analysis.type == AnalysisDefinition::Type::statics)
+    for (std::size_t c = 0; c < 6; ++c)
+      if (boundary.velocity[c])
+        check.fail(
+            fmt::format("{}.velocity.{}", path, component_names[c]),
+            fmt::format("{} prescribes a velocity, but a static analysis knows no time; give displacement, or the "
+                        "type \"quasi-static\" or \"dynamic\"",
+                        title));
+
+  check.not_negative(path + ".ramp", boundary.ramp, "s");
+  if (boundary.center) check.finite(path + ".center", *boundary.center);
+  check_history(check, path + ".history", boundary.history);
+}
+
+void check_load(const Checker& check, const std::string& path, const LoadDefinition& load) {
+  const std::string title = fmt::format("load \"{}\"", load.name);
+  std::vector<std::string> given;
+  const auto add = [&](const std::string& key, const auto& value) {
+    if (!value) return;
+    given.push_back(key);
+    check.finite(path + "." + key, *value);
+  };
+  add("force", load.force);
+  add("traction", load.traction);
+  add("pressure", load.pressure);
+  add("acceleration", load.acceleration);
+  if (given.empty())
+    check.fail(path, fmt::format("{} loads nothing; give it one of force, traction, pressure, acceleration", title));
+  if (given.size() > 1)
+    check.fail(path + "." + given[1],
+               fmt::format("{} has both {}; give one of force, traction, pressure, acceleration (one load each)", title,
+                           fmt::join(given, " and ")));
+
+  const Selection& selection = load.selection;
+  if (load.acceleration) {
+    const std::string key = selection.face ? "face" : selection.box ? "box" : "point";
+    if (selection.face || selection.box || selection.point)
+      check.fail(path + "." + key, fmt::format("{} is an acceleration of the whole body; leave {} out", title, key));
+  } else {
+    check_selection(check, path, title, selection);
+  }
+  if (selection.point && (load.traction || load.pressure))
+    check.fail(path + ".point",
+               fmt::format("{} is a {} on a point, which has no area; select a face or box, or give force", title,
+                           load.traction ? "traction" : "pressure"));
+  check_history(check, path + ".history", load.history);
+}
+
+}  // namespace
+
+void check_conditions(const Checker& check) {
+  const Definition& definition = check.definition;
+  check_names(check, "boundary", definition.boundaries);
+  check_names(check, "load", definition.loads);
+  check_names(check, "probe", definition.probes);
+  for (std::size_t i = 0; i < definition.boundaries.size(); ++i)
+    check_boundary(check, fmt::format("boundary[{}]", i), definition.boundaries[i]);
+  for (std::size_t i = 0; i < definition.loads.size(); ++i)
+    check_load(check, fmt::format("load[{}]", i), definition.loads[i]);
+  for (std::size_t i = 0; i < definition.probes.size(); ++i)
+    check_selection(check, fmt::format("probe[{}]", i), fmt::format("probe \"{}\"", definition.probes[i].name),
+                    definition.probes[i].selection);
+}
+
+}  // namespace koshi::model
