@@ -26,6 +26,9 @@ struct ElasticTensor {
   double operator()(int i, int j, int k, int l) const;
 };
 
+/// Errors: InputError unless E > 0 and -1 < nu < 1/2.
+void require_elastic_solid(const Elastic& elastic);
+
 /// lambda delta_ij delta_kl + mu (delta_ik delta_jl + delta_il delta_jk).
 ElasticTensor elastic_tensor(const Elastic& elastic);
 

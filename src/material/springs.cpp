@@ -20,13 +20,6 @@ Springs scaled(const Springs& unit, double mu, double d) {
   return springs;
 }
 
-void require_elastic_solid(const Elastic& elastic) {
-  if (!(elastic.youngs_modulus > 0))
-    throw InputError(fmt::format("Young's modulus is {} Pa; it must be positive", elastic.youngs_modulus));
-  if (!(elastic.poissons_ratio > -1 && elastic.poissons_ratio < 0.5))
-    throw InputError(fmt::format("Poisson's ratio is {}; it must lie between -1 and 0.5", elastic.poissons_ratio));
-}
-
 /// lambda / mu without the loss of digits of (lambda / E) / (mu / E).
 double lambda_over_mu(double nu) { return 2 * nu / (1 - 2 * nu); }
 
@@ -63,6 +56,13 @@ Springs bending_exact_least_squares(double nu) {
 }
 
 }  // namespace
+
+void require_elastic_solid(const Elastic& elastic) {
+  if (!(elastic.youngs_modulus > 0))
+    throw InputError(fmt::format("Young's modulus is {} Pa; it must be positive", elastic.youngs_modulus));
+  if (!(elastic.poissons_ratio > -1 && elastic.poissons_ratio < 0.5))
+    throw InputError(fmt::format("Poisson's ratio is {}; it must lie between -1 and 0.5", elastic.poissons_ratio));
+}
 
 Springs uniform_springs(lattice::CellType cell, const BondStiffness& stiffness) {
   Springs springs;
