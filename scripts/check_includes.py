@@ -39,6 +39,10 @@ PUBLIC = {
     "definition.h": "model",
     "model.h": "model",
     "state.h": "model",
+    "dynamics.h": "dynamics",
+    "statics.h": "statics",
+    "input.h": "io",
+    "output.h": "io",
 }
 
 # Pattern of a library's headers -> (name, where they may be included: path prefixes).
