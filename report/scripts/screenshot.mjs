@@ -1,0 +1,38 @@
+// node scripts/screenshot.mjs REPORT.html OUT.png [--select field=displacement:x]... [--only SELECTOR]
+//                              [--width 1280] [--height 900] [--dark] [--full]
+// Sets controls of the page (by id; field=NAME:COMPONENT sets both lists) and saves a picture of the window, of the
+// whole page (--full) or of the first element that matches a CSS selector (--only '#figures figure').
+import { parseArgs } from "node:util";
+import { resolve } from "node:path";
+import { pathToFileURL } from "node:url";
+import { openBrowser } from "./browser.mjs";
+
+const { values: options, positionals } = parseArgs({ allowPositionals: true, options: {
+  select: { type: "string", multiple: true, default: [] }, only: { type: "string" }, width: { type: "string", default: "1280" },
+  height: { type: "string", default: "900" }, dark: { type: "boolean", default: false }, full: { type: "boolean", default: false } } });
+if (positionals.length !== 2) throw new Error("usage: screenshot.mjs REPORT.html OUT.png [options]");
+
+const browser = await openBrowser({ viewport: { width: Number(options.width), height: Number(options.height) },
+  deviceScaleFactor: 2, colorScheme: options.dark ? "dark" : "light" });
+try {
+  const page = browser.context.pages()[0];
+  await page.goto(pathToFileURL(resolve(positionals[0])).href);
+  for (const choice of options.select) await set(page, ...choice.split(/=(.*)/s));
+  await page.waitForTimeout(500);  // transitions of the plots
+  const target = options.only ? page.locator(options.only).first() : page;
+  await target.screenshot({ path: positionals[1], ...(options.only ? {} : { fullPage: options.full }) });
+} finally {
+  await browser.close();
+}
+
+async function set(page, id, value) {
+  const control = page.locator(`#${id}`);
+  const kind = await control.evaluate((node) => (node.tagName === "SELECT" ? "select" : node.type));
+  if (kind === "checkbox") await control.setChecked(value === "true");
+  else if (kind !== "select") await control.fill(value);
+  else {
+    const [name, component] = value.split(":");
+    await control.selectOption(name);
+    if (component) await page.locator("#component").selectOption(component);
+  }
+}

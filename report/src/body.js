@@ -1,0 +1,82 @@
+// The body as the page knows it: mesh, samples, and the scalars and shapes one can ask for. No drawing here.
+import { categoryColour, mapFor } from "./colours.js";
+import { decode } from "./data.js";
+import { choices, range, scalars } from "./field.js";
+import { quantity } from "./format.js";
+import { bounds, readMesh } from "./mesh.js";
+
+// The start value of the deformation scale shows the largest displacement as this part of the body's diagonal.
+const VISIBLE_PART = 0.1;
+
+export class Body {
+  /** @param {object} block the data block's `mesh` */
+  constructor(block) {
+    this.mesh = readMesh(block, decode);
+    this.bounds = bounds(this.mesh.points);
+    this.samples = block.samples;
+    this.note = block.note;
+    this.cache = new Map();
+  }
+
+  /** Names of the fields all samples have. */
+  fieldNames() {
+    return Object.keys(this.samples[0].fields).filter((name) => this.samples.every(({ fields }) => name in fields));
+  }
+
+  field(name, sample = 0) {
+    return this.samples[sample].fields[name];
+  }
+
+  choices(name) {
+    return choices(name, this.field(name));
+  }
+
+  /** One scalar of a field in a sample, a value per point or cell. */
+  values(name, choice, sample) {
+    return this.remember(`${name}/${choice}/${sample}`, () => scalars(name, this.field(name, sample), choice));
+  }
+
+  /** Colour map of a scalar: the same over all samples, so that they can be compared. */
+  map(name, choice) {
+    const { kind, categories } = this.field(name);
+    if (kind === "category")
+      return { categories: Object.entries(categories).map(([code, text]) => [Number(code), categoryColour(Number(code) - 1), text]) };
+    return this.remember(`${name}/${choice}`, () => {
+      const ranges = this.samples.map((_, sample) => range(this.values(name, choice, sample)));
+      return mapFor({ min: Math.min(...ranges.map((r) => r.min)), max: Math.max(...ranges.map((r) => r.max)) });
+    });
+  }
+
+  hasDisplacement() {
+    return this.fieldNames().includes("displacement");
+  }
+
+  /** Positions of the points with displacements enlarged `scale` times [m]. */
+  positions(sample, scale) {
+    if (!this.hasDisplacement()) return this.mesh.points;
+    const u = this.remember(`displacement/${sample}`, () => decode(this.field("displacement", sample).data));
+    return this.mesh.points.map((x, i) => x + scale * u[i]);
+  }
+
+  /** Start value of the deformation scale: 1, 2 or 5 times a power of ten, at least 1. */
+  startScale() {
+    if (!this.hasDisplacement()) return 1;
+    const largest = Math.max(...this.samples.map((_, sample) => range(this.values("displacement", "magnitude", sample)).max));
+    const { min, max } = this.bounds;
+    const wanted = (VISIBLE_PART * Math.hypot(...max.map((value, axis) => value - min[axis]))) / largest;
+    if (!(wanted > 1) || !Number.isFinite(wanted)) return 1;
+    const power = 10 ** Math.floor(Math.log10(wanted));
+    return power * [5, 2, 1].find((digit) => digit * power <= wanted);
+  }
+
+  /** What a sample is called: its label, or its time. */
+  sampleName(sample) {
+    const { label, time } = this.samples[sample];
+    return label ?? (time === undefined ? `sample ${sample + 1}` : `t = ${quantity(time, "s", 4)}`);
+  }
+
+  remember(key, compute) {
+    if (!this.cache.has(key)) this.cache.set(key, compute());
+    return this.cache.get(key);
+  }
+}

@@ -1,0 +1,33 @@
+// What was computed: headline, facts, materials, springs, and the files the run leaves.
+import { element, section } from "./dom.js";
+import { quantity } from "./format.js";
+import { table } from "./table.js";
+import { themeButton } from "./theme.js";
+
+/** The head of the page; `links` are [id, text] of the sections present. */
+export function header({ title, subtitle, facts = [], version }, links) {
+  const fact = ({ label, value, unit }) => element("div", {},
+    element("dt", { text: label }),
+    element("dd", { title: typeof value === "number" ? String(value) : null, text: quantity(value, unit) }));
+  return element("header", {},
+    element("div", { class: "masthead" }, element("span", { class: "brand", text: version ? `Koshi ${version}` : "Koshi" }), themeButton()),
+    element("h1", { text: title }),
+    subtitle ? element("p", { class: "subtitle", text: subtitle }) : null,
+    facts.length ? element("dl", { class: "facts" }, ...facts.map(fact)) : null,
+    element("nav", { "aria-label": "Sections" }, ...links.map(([id, text]) => element("a", { href: `#${id}`, text }))));
+}
+
+export function model({ materials, springs, achieved }) {
+  const titled = (block, title) => block && table({ title, ...block });
+  return section("model", "Materials and springs",
+    element("div", { class: "tables" },
+      ...[titled(materials, "Materials"), titled(springs, "Springs"), titled(achieved, "Elastic constants: asked and achieved")].filter(Boolean)));
+}
+
+/** Input and summary as they are on disk, folded away. */
+export function files({ case: text, summary }) {
+  const folded = (title, content) => element("details", {}, element("summary", { text: title }), element("pre", { tabindex: 0, text: content }));
+  return section("files", "Input and summary",
+    text ? folded("Resolved input (resolved.toml)", text) : null,
+    summary ? folded("Summary (summary.json)", JSON.stringify(summary, null, 2)) : null);
+}
