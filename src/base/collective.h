@@ -1,8 +1,7 @@
 // Errors found by some ranks become errors of all, so that none waits for the others.
 #pragma once
 
-#include <fmt/format.h>
-
+#include <array>
 #include <exception>
 
 #include "koshi/communicator.h"
@@ -10,30 +9,32 @@
 
 namespace koshi {
 
-/// Runs `check` on every rank (collective). If any rank throws an InputError, all ranks throw the one of the first such
-/// rank.
+/// Runs `action` on every rank (collective). If it throws on any rank, all ranks throw what it threw on the first such
+/// rank: an InputError stays one, every other exception becomes a RunError with its text.
 template <class F>
-void collectively(const Communicator& communicator, F&& check) {
-  std::exception_ptr own;
-  std::string text;
-  Place place;
+void collectively(const Communicator& communicator, F&& action) {
+  bool threw = false;
+  std::array<double, 3> about{};  // input error?, line, column
+  std::string text, file;
   try {
-    check();
+    action();
   } catch (const InputError& error) {
-    own = std::current_exception();
+    threw = true;
     text = error.message();
-    place = error.place();
+    file = error.place().file;
+    about = {1, static_cast<double>(error.place().line), static_cast<double>(error.place().column)};
+  } catch (const std::exception& error) {
+    threw = true;
+    text = error.what();
   }
   const int none = communicator.size();
-  const int first = static_cast<int>(communicator.min(own ? communicator.rank() : none));
+  const int first = static_cast<int>(communicator.min(threw ? communicator.rank() : none));
   if (first == none) return;
   text = communicator.broadcast(text, first);
-  place.file = communicator.broadcast(place.file, first);
-  std::array<double, 2> at{static_cast<double>(place.line), static_cast<double>(place.column)};
-  communicator.broadcast(at, first);
-  place.line = static_cast<int>(at[0]);
-  place.column = static_cast<int>(at[1]);
-  throw InputError(place, text);
+  file = communicator.broadcast(file, first);
+  communicator.broadcast(about, first);
+  if (about[0] == 0) throw RunError(text);
+  throw InputError(Place{file, static_cast<int>(about[1]), static_cast<int>(about[2])}, text);
 }
 
 }  // namespace koshi

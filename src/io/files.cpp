@@ -1,0 +1,76 @@
+#include "io/files.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <system_error>
+
+#include "koshi/error.h"
+
+namespace koshi::io {
+namespace {
+
+/// An open file descriptor.
+class Descriptor {
+ public:
+  Descriptor(const std::filesystem::path& path, int flags) : value_(::open(path.c_str(), flags | O_CLOEXEC, 0666)) {}
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  explicit operator bool() const { return value_ >= 0; }
+  int value() const { return value_; }
+
+ private:
+  int value_;
+};
+
+bool write_all(int descriptor, std::string_view content) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(descriptor, content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    content.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return true;
+}
+
+}  // namespace
+
+std::filesystem::path part_of(const std::filesystem::path& path) { return path.native() + ".part"; }
+
+std::string system_reason(int error_number) { return std::generic_category().message(error_number); }
+
+void replace_file(const std::filesystem::path& path, std::string_view content) {
+  const std::filesystem::path part = part_of(path);
+  bool done = false;
+  if (const Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC); file)
+    done = write_all(file.value(), content) && ::fsync(file.value()) == 0;
+  if (done && ::rename(part.c_str(), path.c_str()) == 0) return;
+  const std::string reason = system_reason(errno);
+  ::unlink(part.c_str());
+  throw RunError(fmt::format("cannot write {}: {}", path.native(), reason));
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::string content;
+  ssize_t got = -1;
+  if (const Descriptor file(path, O_RDONLY); file) {
+    std::string block(std::size_t{1} << 16, '\0');
+    while ((got = ::read(file.value(), block.data(), block.size())) > 0)
+      content.append(block, 0, static_cast<std::size_t>(got));
+  }
+  if (got < 0) throw InputError(fmt::format("cannot read {}: {}", path.native(), system_reason(errno)));
+  return content;
+}
+
+void flush_to_disk(const std::filesystem::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  if (!file || ::fsync(file.value()) != 0)
+    throw RunError(fmt::format("cannot write {}: {}", path.native(), system_reason(errno)));
+}
+
+}  // namespace koshi::io

@@ -1,0 +1,26 @@
+// Files that appear whole or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace koshi::io {
+
+/// Name under which a file is written before it gets its own: `path` with ".part" added.
+std::filesystem::path part_of(const std::filesystem::path& path);
+
+/// Text of a system error, e.g. "No space left on device".
+std::string system_reason(int error_number);
+
+/// Puts a file with this content at `path`: written beside, flushed to the disk, renamed. Throws RunError with the
+/// system's reason; the file that was there before then stays as it was.
+void replace_file(const std::filesystem::path& path, std::string_view content);
+
+/// Content of a file. Throws InputError with the system's reason.
+std::string read_file(const std::filesystem::path& path);
+
+/// Flushes a file or a directory (its entries: a rename is safe only then) to the disk. Throws RunError.
+void flush_to_disk(const std::filesystem::path& path);
+
+}  // namespace koshi::io

@@ -1,0 +1,23 @@
+#include "io/summary.h"
+
+#include "base/collective.h"
+#include "io/files.h"
+
+namespace koshi::io {
+
+void write_summary(const Communicator& communicator, const std::filesystem::path& directory,
+                   const nlohmann::ordered_json& summary) {
+  collectively(communicator, [&] {
+    // Names are the user's: bytes that are no UTF-8 are replaced instead of losing the whole file.
+    constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
+    if (communicator.is_root()) replace_file(directory / "summary.json", summary.dump(2, ' ', false, replace) + "\n");
+  });
+}
+
+void write_resolved(const Communicator& communicator, const std::filesystem::path& directory, std::string_view toml) {
+  collectively(communicator, [&] {
+    if (communicator.is_root()) replace_file(directory / "resolved.toml", toml);
+  });
+}
+
+}  // namespace koshi::io
