@@ -77,7 +77,9 @@ double predicted_memory(const Definition& definition);
 struct State {
   lattice::Field<double> displacement;
   lattice::Field<double> velocity;  ///< at t - dt/2 in explicit runs
-  double time = 0;                  ///< [s]
+  /// Unit quaternions w, x, y, z of the nodes; no components unless a run asks for orientations.
+  lattice::Field<double> orientation;
+  double time = 0;  ///< [s]
   std::int64_t step = 0;
 
   explicit State(const Model& model)

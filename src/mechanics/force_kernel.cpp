@@ -53,7 +53,12 @@ void ForceKernel<T>::make_tables() {
     fit_table_[m] = static_cast<T>((s.kt[0] / 4 + s.kt[1] + s.kt[2]) / 8);
     stencils_[m] = make_stencil<T>(s, d, lattice_.kinematics);
   }
-  tables_ = {kt_.data(), kb_.data(), volumetric_table_.data(), fit_table_.data(), static_cast<T>(0.5 * d)};
+  tables_ = {kt_.data(),
+             kb_.data(),
+             volumetric_table_.data(),
+             fit_table_.data(),
+             static_cast<T>(0.5 * d),
+             static_cast<int>(lattice_.classes.size())};
 }
 
 template <class T>
@@ -62,8 +67,10 @@ void ForceKernel<T>::make_segments() {
   const Int3& owned = layout.owned();
   const std::uint8_t* cell = lattice_.cell.component(0);
   // With plain springs and the least-squares rotation the parts of a cell depend on its neighbours: no node is uniform.
+  // Rows of a few nodes are done faster in one go. (The rows of the body decide, not this rank's part of them.)
   const bool uniform_allowed =
-      !(lattice_.sharing == material::Sharing::plain && lattice_.kinematics == material::Kinematics::least_squares);
+      !(lattice_.sharing == material::Sharing::plain && lattice_.kinematics == material::Kinematics::least_squares) &&
+      lattice_.grid.nodes()[0] > 8;
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j) {
       row_segments_.push_back(static_cast<std::int64_t>(segments_.size()));

@@ -2,6 +2,8 @@
 // no remainder loop rounds differently and a node's force does not depend on its place in the row.
 #include "mechanics/row_kernels.h"
 
+#include <type_traits>
+
 #define KOSHI_TEXT_(x) #x
 #define KOSHI_TEXT(x) KOSHI_TEXT_(x)
 
@@ -140,62 +142,95 @@ constexpr int direction(int axis) {
   return s[slot][axis];
 }
 
-// Adds the bonds of one direction, forward (sign +1) or backward, to `width` nodes. With D = -d s the relative
-// displacement is r = u1 - u2 + d/2 (w1 + w2) x s; the force on the node is -F, its moment -d/2 s x F.
-template <class T, bool rotational, int slot, int sign>
+// `width` nodes at once.
+template <class T>
+using Vector __attribute__((vector_size(64))) = T;
+template <class T>
+using Integer = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+template <class T>
+using Index __attribute__((vector_size(64))) = Integer<T>;
+template <class T>
+using Bytes __attribute__((vector_size(64 / sizeof(T)))) = std::uint8_t;
+
+template <class T>
+inline __attribute__((always_inline)) Vector<T> load(const T* p) {
+  Vector<T> v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return v;
+}
+
+// Stiffness of the bonds' classes. A table of at most `width` classes (a body of one material has 8) sits in a
+// register.
+template <class T, bool small>
+inline __attribute__((always_inline)) Vector<T> look_up(const T* table, const std::uint8_t* bond) {
+  Vector<T> v;
+  if constexpr (small) {
+    Bytes<T> bytes;
+    __builtin_memcpy(&bytes, bond, sizeof bytes);
+    v = __builtin_shuffle(load(table), __builtin_convertvector(bytes, Index<T>));
+  } else {
+    for (std::int64_t i = 0; i < width<T>; ++i) v[i] = table[bond[i]];
+  }
+  return v;
+}
+
+// Adds the bonds of one direction, forward (sign +1) or backward, to the nodes from `begin` on. With D = -d s the
+// relative displacement is r = u1 - u2 + d/2 (w1 + w2) x s; the force on the node is -F, its moment -d/2 s x F.
+template <class T, bool rotational, bool small, int slot, int sign>
 inline __attribute__((always_inline)) void add_bond(const Tables<T>& tables, const Row<T>& row, std::int64_t begin,
-                                                    T (&F)[6][width<T>]) {
-  constexpr int sx = sign * direction<slot>(0), sy = sign * direction<slot>(1), sz = sign * direction<slot>(2);
-  const std::ptrdiff_t to = sx + row.pitch * sy + row.plane * sz;
+                                                    Vector<T> (&F)[6]) {
+  constexpr int ox = sign * direction<slot>(0), oy = sign * direction<slot>(1), oz = sign * direction<slot>(2);
+  constexpr T sx = ox, sy = oy, sz = oz;
+  const std::ptrdiff_t to = ox + row.pitch * oy + row.plane * oz;
   const std::uint8_t* const bond = row.bond[slot] + begin + (sign > 0 ? 0 : to);
+  const Vector<T> kt = look_up<T, small>(tables.kt, bond), kb = look_up<T, small>(tables.kb, bond);
+  const auto difference = [&](int c) { return load(row.u[c] + begin) - load(row.u[c] + begin + to); };
   const T h = tables.half_d;
-  const T* const kts = tables.kt;
-  const T* const kbs = tables.kb;
-  const T *const u0 = row.u[0] + begin, *const u1 = row.u[1] + begin, *const u2 = row.u[2] + begin;
-  const T *const w0 = rotational ? row.u[3] + begin : u0, *const w1 = rotational ? row.u[4] + begin : u0,
-                 *const w2 = rotational ? row.u[5] + begin : u0;
-#pragma GCC ivdep
-  for (std::int64_t i = 0; i < width<T>; ++i) {
-    const T kt = kts[bond[i]], kb = kbs[bond[i]];
-    T rx = u0[i] - u0[i + to], ry = u1[i] - u1[i + to], rz = u2[i] - u2[i + to];
-    if constexpr (rotational) {
-      const T wx = h * (w0[i] + w0[i + to]), wy = h * (w1[i] + w1[i + to]), wz = h * (w2[i] + w2[i + to]);
-      rx += wy * sz - wz * sy;
-      ry += wz * sx - wx * sz;
-      rz += wx * sy - wy * sx;
-    }
-    const T along = kb * (rx * sx + ry * sy + rz * sz);
-    const T fx = kt * rx + along * sx, fy = kt * ry + along * sy, fz = kt * rz + along * sz;
-    F[0][i] -= fx;
-    F[1][i] -= fy;
-    F[2][i] -= fz;
-    if constexpr (rotational) {
-      F[3][i] -= h * (fz * sy - fy * sz);
-      F[4][i] -= h * (fx * sz - fz * sx);
-      F[5][i] -= h * (fy * sx - fx * sy);
-    }
+  Vector<T> rx = difference(0), ry = difference(1), rz = difference(2);
+  if constexpr (rotational) {
+    const auto mean = [&](int c) { return h * (load(row.u[c] + begin) + load(row.u[c] + begin + to)); };
+    const Vector<T> wx = mean(3), wy = mean(4), wz = mean(5);
+    rx += wy * sz - wz * sy;
+    ry += wz * sx - wx * sz;
+    rz += wx * sy - wy * sx;
+  }
+  const Vector<T> along = kb * (rx * sx + ry * sy + rz * sz);
+  const Vector<T> fx = kt * rx + along * sx, fy = kt * ry + along * sy, fz = kt * rz + along * sz;
+  F[0] -= fx;
+  F[1] -= fy;
+  F[2] -= fz;
+  if constexpr (rotational) {
+    F[3] -= h * (fz * sy - fy * sz);
+    F[4] -= h * (fx * sz - fz * sx);
+    F[5] -= h * (fy * sx - fx * sy);
   }
 }
 
-template <class T, bool rotational, int slot = 0>
+template <class T, bool rotational, bool small, int slot = 0>
 inline __attribute__((always_inline)) void add_bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t begin,
-                                                     T (&F)[6][width<T>]) {
+                                                     Vector<T> (&F)[6]) {
   if constexpr (slot < 13) {
-    add_bond<T, rotational, slot, 1>(tables, row, begin, F);
-    add_bond<T, rotational, slot, -1>(tables, row, begin, F);
-    add_bonds<T, rotational, slot + 1>(tables, row, begin, F);
+    add_bond<T, rotational, small, slot, 1>(tables, row, begin, F);
+    add_bond<T, rotational, small, slot, -1>(tables, row, begin, F);
+    add_bonds<T, rotational, small, slot + 1>(tables, row, begin, F);
+  }
+}
+
+template <class T, bool rotational, bool small>
+void bonds_with(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, T* const force[6]) {
+  for (std::int64_t begin = first; begin < last; begin += width<T>) {
+    Vector<T> F[6] = {};
+    add_bonds<T, rotational, small>(tables, row, begin, F);
+    for (int c = 0; c < (rotational ? 6 : 3); ++c) __builtin_memcpy(force[c] + begin, &F[c], sizeof F[c]);
   }
 }
 
 template <class T, bool rotational>
 void bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, T* const force[6]) {
-  constexpr int components = rotational ? 6 : 3;
-  for (std::int64_t begin = first; begin < last; begin += width<T>) {
-    T F[6][width<T>] = {};
-    add_bonds<T, rotational>(tables, row, begin, F);
-    for (int c = 0; c < components; ++c)
-      for (std::int64_t i = 0; i < width<T>; ++i) force[c][begin + i] = F[c][i];
-  }
+  if (tables.classes <= width<T>)
+    bonds_with<T, rotational, true>(tables, row, first, last, force);
+  else
+    bonds_with<T, rotational, false>(tables, row, first, last, force);
 }
 
 // --- Cells

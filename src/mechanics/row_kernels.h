@@ -44,6 +44,7 @@ struct Tables {
   const T* volumetric;  ///< kappa d / 16 of a material
   const T* fit;         ///< (kt1/4 + kt2 + kt3) / 8 of a material: the least-squares rotation of shared springs
   T half_d;             ///< d / 2
+  int classes;          ///< classes in use, that of the absent bond included
 };
 
 /// Work space of one row: `stencil` 18 rows, `cell` 4 rows; rows hold `length` elements, node i = 0 at `lead`.

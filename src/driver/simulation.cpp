@@ -1,0 +1,148 @@
+#include "driver/simulation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "driver/schedule.h"
+#include "koshi/dynamics.h"
+
+namespace koshi::driver {
+
+using Type = model::AnalysisDefinition::Type;
+
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+bool wants_orientation(const model::Definition& definition) {
+  const auto& fields = definition.output.fields;
+  return std::find(fields.begin(), fields.end(), "orientation") != fields.end();
+}
+
+}  // namespace
+
+Simulation::Simulation(const model::Definition& definition, const Communicator& communicator)
+    : model_(std::make_unique<const model::Model>(model::make_model(definition, communicator))),
+      kernel_(std::make_unique<mechanics::ForceKernel<double>>(model_->lattice)),
+      meter_(std::make_unique<mechanics::Meter>(*model_, *kernel_)),
+      state_(std::make_unique<model::State>(*model_)) {
+  if (wants_orientation(definition) && model_->components() == 6) {
+    state_->orientation = lattice::Field<double>(model_->layout(), 4);
+    std::fill_n(state_->orientation.component(0), state_->orientation.stride(), 1.0);
+  }
+}
+
+Outcome Simulation::run(const Observer& observer, const std::vector<std::string>& petsc_options) {
+  const double start = now();
+  Outcome outcome =
+      model_->definition.analysis.type == Type::statics ? run_static(observer, petsc_options) : run_explicit(observer);
+  outcome.seconds = now() - start;
+  return outcome;
+}
+
+Outcome Simulation::run_static(const Observer& observer, const std::vector<std::string>& petsc_options) {
+  statics::StaticOptions options;
+  options.tolerance = model_->definition.analysis.tolerance;
+  options.petsc_options = petsc_options;
+  if (observer.progress)
+    options.progress = [&](int iteration, double residual) {
+      observer.progress(std::clamp(std::log(residual) / std::log(options.tolerance), 0.0, 1.0),
+                        fmt::format("iteration {}, residual {:.1e}", iteration, residual));
+    };
+  Outcome outcome;
+  outcome.solution = statics::solve_static(*model_, *state_, options);
+  outcome.measurement = meter_->measure(*state_, 0);
+  if (observer.history) observer.history(outcome.measurement, *state_);
+  if (observer.fields) observer.fields(*state_, 0);
+  return outcome;
+}
+
+void Simulation::check_support() const {
+  if (model_->motion_count == 0)
+    throw InputError(
+        model_->definition.places.find("analysis.type"),
+        "a quasi-static run needs a support, but nothing is fixed or prescribed; add a [[boundary]], or use type = "
+        "\"dynamic\"");
+}
+
+double Simulation::choose_step(const mechanics::StableStep& stable) const {
+  const model::AnalysisDefinition& analysis = model_->definition.analysis;
+  if (!analysis.time_step) return analysis.safety * stable.limit();
+  if (*analysis.time_step > stable.limit() && !analysis.allow_unstable_step)
+    throw InputError(
+        model_->definition.places.find("analysis.time_step"),
+        fmt::format("time step {:.4g} s is above the stable limit {:.4g} s (the lesser of d/c_p = {:.4g} s and "
+                    "2/omega_max, with damping, = "
+                    "{:.4g} s); use time_step = \"auto\" or at most {:.3g} s, or allow_unstable_step = true",
+                    *analysis.time_step, stable.limit(), stable.wave, stable.frequency,
+                    analysis.safety * stable.limit()));
+  return *analysis.time_step;
+}
+
+void Simulation::check_divergence(const mechanics::Balance& balance) const {
+  // A body that has moved a thousand times its size is no answer, and soon no number.
+  const Vec3& size = model_->definition.body.size;
+  const double bound = 1e3 * std::max({size[0], size[1], size[2]});
+  double largest = 0;
+  Int3 where{};
+  lattice::for_each_owned(model_->layout(), [&](auto i, auto j, auto k, auto n) {
+    for (int c = 0; c < 3; ++c) {
+      const double u = std::abs(state_->displacement.component(c)[n]);
+      if (u <= largest) continue;  // false for a NaN
+      largest = u;
+      where = model_->layout().global({i, j, k});
+    }
+  });
+  const bool finite = std::isfinite(balance.elastic_energy) && std::isfinite(balance.kinetic_energy);
+  if (!model_->communicator.any(!finite || !(largest < bound))) return;
+  const Vec3 at = model_->lattice.grid.position(where);
+  const double dt = state_->step > 0 ? state_->time / static_cast<double>(state_->step) : 0;
+  throw RunError(fmt::format(
+      "the run diverged at or before step {} (t = {:.6g} s): node ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m "
+      "has moved {:.3g} m; use a smaller time_step than {:.3g} s (or \"auto\"), or check loads and units",
+      state_->step, state_->time, where[0], where[1], where[2], at[0], at[1], at[2], largest, dt));
+}
+
+Outcome Simulation::run_explicit(const Observer& observer) {
+  const model::AnalysisDefinition& analysis = model_->definition.analysis;
+  const bool quasi_static = analysis.type == Type::quasi_static;
+  if (quasi_static) check_support();
+  Outcome outcome;
+  outcome.stable = mechanics::stable_step(*model_, *kernel_);
+  const Schedule schedule(model_->definition, choose_step(*outcome.stable));
+  outcome.time_step = schedule.dt();
+
+  dynamics::ExplicitSolver solver(*model_, *state_, schedule.dt());
+  outcome.measurement = meter_->measure(*state_, schedule.dt());
+  if (state_->step == 0) {
+    if (observer.history) observer.history(outcome.measurement, *state_);
+    if (observer.fields && schedule.samples_fields()) observer.fields(*state_, schedule.dt());
+  }
+  outcome.converged = !quasi_static;
+  while (state_->step < schedule.last_step() && !outcome.stopped) {
+    solver.step();
+    const std::int64_t step = state_->step;
+    const bool last = step == schedule.last_step();
+    if (schedule.is_check(step) || schedule.is_history(step) || last) {
+      outcome.measurement = meter_->measure(*state_, schedule.dt());
+      check_divergence(outcome.measurement.balance);
+      outcome.converged = !quasi_static || schedule.at_rest(outcome.measurement.balance, state_->time);
+    }
+    const bool done = last || (quasi_static && outcome.converged);
+    if (observer.history && (done || schedule.is_history(step))) observer.history(outcome.measurement, *state_);
+    if (observer.fields && (done || schedule.is_field(step))) observer.fields(*state_, schedule.dt());
+    if (observer.progress && (done || schedule.is_poll(step)))
+      observer.progress(schedule.fraction(step, outcome.measurement.balance),
+                        fmt::format("step {}, t = {:.4g} s, unbalanced {:.1e}", step, state_->time,
+                                    outcome.measurement.balance.unbalanced_ratio()));
+    if (done) break;
+    if (observer.poll && schedule.is_poll(step)) outcome.stopped = observer.poll(*state_);
+  }
+  outcome.steps = state_->step;
+  return outcome;
+}
+
+}  // namespace koshi::driver

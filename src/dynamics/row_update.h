@@ -1,0 +1,26 @@
+// The update of one row in an explicit step, compiled for several instruction sets like mechanics/row_kernels.h.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace koshi::dynamics {
+
+/// v <- keep v + gain (F - alpha |F| sign(v)) / m: central differences (N5) with local (N27) and viscous (N1) damping.
+struct Kick {
+  double keep;   ///< (1 - c dt/2) / (1 + c dt/2)
+  double gain;   ///< dt / (1 + c dt/2) [s]
+  double alpha;  ///< local damping factor
+};
+
+/// Rows start at node i = 0 and are handled in whole vectors; padding holds inverse masses of zero and stays zero.
+struct RowUpdate {
+  void (*kick)(const Kick& kick, std::int64_t nodes, const double* force, const double* inverse_mass, double* velocity);
+  /// u <- u + dt v (N6).
+  void (*drift)(double dt, std::int64_t nodes, const double* velocity, double* displacement);
+};
+
+/// Functions for this processor.
+const RowUpdate& row_update();
+
+}  // namespace koshi::dynamics

@@ -1,0 +1,80 @@
+#include "mechanics/cell_stress.h"
+
+#include <cmath>
+
+#include "mechanics/bond_law.h"
+#include "mechanics/cell_bonds.h"
+
+namespace koshi::mechanics {
+namespace {
+
+constexpr std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+
+}  // namespace
+
+CellState cell_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
+  const lattice::Layout& layout = body.layout;
+  const double d = body.grid.d;
+  const std::uint8_t material = body.cell.component(0)[cell];
+  const bool rotational = body.components() == 6;
+  std::array<std::int64_t, 8> node;
+  std::array<Vec3, 8> displacement, rotation{};
+  for (int a = 0; a < 8; ++a) {
+    node[a] = cell + layout.offset({a & 1, a >> 1 & 1, a >> 2});
+    for (int c = 0; c < 3; ++c) {
+      displacement[a][c] = u.component(c)[node[a]];
+      if (rotational) rotation[a][c] = u.component(3 + c)[node[a]];
+    }
+  }
+
+  // Gradient of the fitted field, du_i/dx_j = 1/(4d) sum_s s_j u_i(s).
+  double G[3][3] = {};
+  for (int a = 0; a < 8; ++a)
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) G[i][j] += (a >> j & 1 ? 1 : -1) * displacement[a][i] / (4 * d);
+  CellState state;
+  for (int v = 0; v < 6; ++v) state.strain[v] = 0.5 * (G[pairs[v][0]][pairs[v][1]] + G[pairs[v][1]][pairs[v][0]]);
+  state.rotation = {0.5 * (G[2][1] - G[1][2]), 0.5 * (G[0][2] - G[2][0]), 0.5 * (G[1][0] - G[0][1])};
+
+  // Virial of the cell's bonds.
+  const double volume = d * d * d;
+  for (const CellBond& bond : cell_bonds) {
+    const auto [kn, kt] = cell_part(body, bond.slot, node[bond.a], material);
+    const auto& s = lattice::slots[bond.slot].s;
+    const Vec3 D = -d * Vec3{static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])};
+    const Vec3 w = rotational ? 0.5 * (rotation[bond.a] + rotation[bond.b]) : state.rotation;
+    const Vec3 F = bond_force(kn, kt, D, relative_displacement(displacement[bond.a], displacement[bond.b], w, D)).F;
+    for (int v = 0; v < 6; ++v) {
+      const auto [i, j] = pairs[v];
+      state.stress[v] += 0.5 * (D[i] * F[j] + D[j] * F[i]) / volume;
+    }
+  }
+  const double pressure = body.springs[material].kappa * (state.strain[0] + state.strain[1] + state.strain[2]);
+  for (int v = 0; v < 3; ++v) state.stress[v] += pressure;
+  return state;
+}
+
+CellState node_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t node) {
+  CellState mean;
+  int cells = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const std::int64_t cell = node - body.layout.offset({corner & 1, corner >> 1 & 1, corner >> 2});
+    if (body.cell.component(0)[cell] == 0) continue;
+    ++cells;
+    const CellState state = cell_state(body, u, cell);
+    for (int v = 0; v < 6; ++v) {
+      mean.strain[v] += state.strain[v];
+      mean.stress[v] += state.stress[v];
+    }
+    mean.rotation = mean.rotation + state.rotation;
+  }
+  const double share = cells == 0 ? 0 : 1.0 / cells;
+  for (int v = 0; v < 6; ++v) {
+    mean.strain[v] *= share;
+    mean.stress[v] *= share;
+  }
+  mean.rotation = share * mean.rotation;
+  return mean;
+}
+
+}  // namespace koshi::mechanics

@@ -1,0 +1,25 @@
+// Strain and stress of cells.
+#pragma once
+
+#include "koshi/spring_lattice.h"
+#include "koshi/vector3.h"
+
+namespace koshi::mechanics {
+
+/// Symmetric tensor in the order xx, yy, zz, yz, xz, xy (tensor components, no factor 2).
+using Tensor6 = std::array<double, 6>;
+
+struct CellState {
+  Tensor6 strain{};  ///< of the linear field fitted to the corners (N22)
+  Tensor6 stress{};  ///< [Pa], virial: 1/d^3 sum over the cell's part of its bonds of D F, symmetric, plus kappa theta
+                     ///< (N18)
+  Vec3 rotation{};   ///< [rad], of the fitted field
+};
+
+/// Of the cell with lowest corner `cell`, which must touch an owned node and be solid; ghosts of u up to date.
+CellState cell_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell);
+
+/// Mean over the solid cells around an owned node.
+CellState node_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t node);
+
+}  // namespace koshi::mechanics

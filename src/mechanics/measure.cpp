@@ -1,0 +1,213 @@
+#include "mechanics/measure.h"
+
+#include <cmath>
+#include <unordered_map>
+
+#include "base/exact_sum.h"
+#include "lattice/halo.h"
+#include "mechanics/cell_stress.h"
+
+namespace koshi::mechanics {
+
+using Quantity = model::ProbeDefinition::Quantity;
+using Reduce = model::ProbeDefinition::Reduce;
+
+Meter::Meter(const model::Model& model, ForceKernel<double>& kernel)
+    : model_(model),
+      kernel_(kernel),
+      loads_(model),
+      motion_rows_(model.layout(), model.motions, [](const model::PrescribedMotion& m) { return m.node; }) {}
+
+template <class F>
+void Meter::for_each_row(model::State& state, F&& f) {
+  const lattice::Layout& layout = model_.layout();
+  model_.lattice.halo->exchange(state.displacement);
+  loads_.set_time(state.time);
+  std::array<std::vector<double>, 6> external;
+  std::array<double*, 6> external_row{};
+  for (int c = 0; c < 6; ++c) external[c].resize(static_cast<std::size_t>(layout.owned()[0]));
+  for (int c = 0; c < 6; ++c) external_row[c] = external[c].data();
+  for (std::int64_t k = 0; k < layout.owned()[2]; ++k)
+    for (std::int64_t j = 0; j < layout.owned()[1]; ++j) {
+      double* const* internal = kernel_.row(state.displacement, j, k);
+      for (auto& e : external) std::fill(e.begin(), e.end(), 0);
+      loads_.add(j, k, external_row.data());
+      f(j, k, internal, external_row.data());
+    }
+}
+
+namespace {
+
+// Marks the prescribed components of a row, by node.
+class RowMask {
+ public:
+  RowMask(const model::Model& model, const RowIndex& rows)
+      : model_(model), rows_(rows), mask_(static_cast<std::size_t>(model.layout().owned()[0])) {}
+  const std::vector<std::uint8_t>& of(std::int64_t j, std::int64_t k) {
+    std::fill(mask_.begin(), mask_.end(), 0);
+    const std::int64_t row = j + model_.layout().owned()[1] * k, first = model_.layout().index(0, j, k);
+    for (std::size_t m = rows_.begin(row); m < rows_.end(row); ++m)
+      mask_[static_cast<std::size_t>(model_.motions[m].node - first)] |=
+          static_cast<std::uint8_t>(1 << model_.motions[m].component);
+    return mask_;
+  }
+
+ private:
+  const model::Model& model_;
+  const RowIndex& rows_;
+  std::vector<std::uint8_t> mask_;
+};
+
+struct Sums {
+  ExactSum elastic, kinetic, residual, reference;
+
+  Balance total(const Communicator& communicator) {
+    for (ExactSum* s : {&elastic, &kinetic, &residual, &reference}) s->sum_ranks(communicator);
+    return {elastic.value(), kinetic.value(), std::sqrt(residual.value()), std::sqrt(reference.value())};
+  }
+};
+
+// Adds one row to the sums. A node's terms are added up in a fixed order, nodes without rounding, so that the result
+// does not depend on the partition.
+void add_row(const model::Model& model, const model::State& state, double dt, std::int64_t j, std::int64_t k,
+             double* const* internal, double* const* external, const std::vector<std::uint8_t>& mask, Sums& sums) {
+  const int components = model.components();
+  const std::int64_t n = model.layout().index(0, j, k);
+  const double d = model.lattice.grid.d;
+  for (std::int64_t i = 0; i < model.layout().owned()[0]; ++i) {
+    if (model.inertia.component(0)[n + i] == 0) continue;
+    double elastic = 0, kinetic = 0, residual = 0, reference = 0;
+    for (int c = 0; c < components; ++c) {
+      const double force = internal[c][i] + external[c][i];
+      const double inertia = model.inertia.component(c < 3 ? 0 : 1)[n + i];
+      const double lever = c < 3 ? 1 : d;
+      const bool prescribed = mask[static_cast<std::size_t>(i)] >> c & 1;
+      const double v = state.velocity.component(c)[n + i] + (prescribed ? 0 : 0.5 * dt * force / inertia);
+      elastic -= 0.5 * state.displacement.component(c)[n + i] * internal[c][i];
+      kinetic += 0.5 * inertia * v * v;
+      const double square = force * force / (lever * lever);
+      (prescribed ? reference : residual) += square;
+      reference += external[c][i] * external[c][i] / (lever * lever);
+    }
+    sums.elastic += elastic;
+    sums.kinetic += kinetic;
+    sums.residual += residual;
+    sums.reference += reference;
+  }
+}
+
+}  // namespace
+
+Balance Meter::balance(model::State& state, double dt) {
+  Sums sums;
+  RowMask mask(model_, motion_rows_);
+  for_each_row(state, [&](auto j, auto k, double* const* internal, double* const* external) {
+    add_row(model_, state, dt, j, k, internal, external, mask.of(j, k), sums);
+  });
+  return sums.total(model_.communicator);
+}
+
+lattice::Field<double> Meter::reactions(model::State& state) {
+  lattice::Field<double> reaction(model_.layout(), model_.components());
+  for_each_row(state, [&](auto j, auto k, double* const* internal, double* const* external) {
+    const std::int64_t row = j + model_.layout().owned()[1] * k, first = model_.layout().index(0, j, k);
+    for (std::size_t m = motion_rows_.begin(row); m < motion_rows_.end(row); ++m) {
+      const auto& [node, component, is_velocity, value, boundary] = model_.motions[m];
+      reaction.component(component)[node] = -(internal[component][node - first] + external[component][node - first]);
+    }
+  });
+  return reaction;
+}
+
+Measurement Meter::measure(model::State& state, double dt) {
+  // Reactions are only kept at nodes of probes that ask for them.
+  std::unordered_map<std::int64_t, std::array<double, 6>> wanted;
+  for (const model::Probe& probe : model_.probes)
+    if (probe.definition.quantity == Quantity::reaction)
+      for (const auto& [node, weight] : probe.nodes) wanted[node] = {};
+
+  Sums sums;
+  RowMask mask(model_, motion_rows_);
+  for_each_row(state, [&](auto j, auto k, double* const* internal, double* const* external) {
+    const auto& prescribed = mask.of(j, k);
+    add_row(model_, state, dt, j, k, internal, external, prescribed, sums);
+    const std::int64_t row = j + model_.layout().owned()[1] * k, first = model_.layout().index(0, j, k);
+    for (std::size_t m = motion_rows_.begin(row); m < motion_rows_.end(row); ++m) {
+      const model::PrescribedMotion& motion = model_.motions[m];
+      const auto at = wanted.find(motion.node);
+      if (at == wanted.end()) continue;
+      const int c = motion.component;
+      at->second[static_cast<std::size_t>(c)] = -(internal[c][motion.node - first] + external[c][motion.node - first]);
+    }
+  });
+
+  Measurement result{sums.total(model_.communicator), {}};
+  for (const model::Probe& probe : model_.probes) {
+    std::vector<std::array<double, 6>> reactions;
+    if (probe.definition.quantity == Quantity::reaction)
+      for (const auto& [node, weight] : probe.nodes) reactions.push_back(wanted[node]);
+    result.probes.push_back(probe_value(probe, state, reactions));
+  }
+  return result;
+}
+
+ProbeValue Meter::probe_value(const model::Probe& probe, const model::State& state,
+                              const std::vector<std::array<double, 6>>& node_reactions) const {
+  const Quantity quantity = probe.definition.quantity;
+  const bool tensor = quantity == Quantity::stress || quantity == Quantity::strain;
+  const std::size_t components = tensor ? 6 : 3;
+  std::vector<ExactSum> sum(components);
+  ProbeValue largest(components, 0);
+  for (std::size_t p = 0; p < probe.nodes.size(); ++p) {
+    const auto& [node, weight] = probe.nodes[p];
+    std::array<double, 6> value{};
+    if (tensor) {
+      const CellState at = node_state(model_.lattice, state.displacement, node);
+      value = quantity == Quantity::stress ? at.stress : at.strain;
+    } else if (quantity == Quantity::rotation && model_.components() == 3) {
+      const Vec3 w = node_state(model_.lattice, state.displacement, node).rotation;
+      std::copy(w.begin(), w.end(), value.begin());
+    } else {
+      for (int c = 0; c < 3; ++c)
+        value[static_cast<std::size_t>(c)] =
+            quantity == Quantity::reaction   ? node_reactions[p][static_cast<std::size_t>(c)]
+            : quantity == Quantity::rotation ? state.displacement.component(3 + c)[node]
+            : quantity == Quantity::velocity ? state.velocity.component(c)[node]
+                                             : state.displacement.component(c)[node];
+    }
+    for (std::size_t c = 0; c < components; ++c) {
+      sum[c] += weight * value[c];
+      if (std::abs(value[c]) > std::abs(largest[c])) largest[c] = value[c];
+    }
+  }
+
+  ProbeValue result(components);
+  for (std::size_t c = 0; c < components; ++c) {
+    if (probe.definition.reduce == Reduce::max) {
+      // The value of largest magnitude, with its sign.
+      const double up = model_.communicator.max(largest[c]), down = model_.communicator.min(largest[c]);
+      result[c] = up >= -down ? up : down;
+      continue;
+    }
+    sum[c].sum_ranks(model_.communicator);
+    result[c] = sum[c].value() / (probe.definition.reduce == Reduce::sum ? 1 : probe.total);
+  }
+  return result;
+}
+
+std::string name_of(Quantity quantity) {
+  constexpr std::array<const char*, 6> names{"displacement", "rotation", "velocity", "reaction", "stress", "strain"};
+  return names[static_cast<std::size_t>(quantity)];
+}
+
+std::string unit_of(Quantity quantity) {
+  constexpr std::array<const char*, 6> units{"m", "rad", "m/s", "N", "Pa", "1"};
+  return units[static_cast<std::size_t>(quantity)];
+}
+
+std::vector<std::string> component_names(Quantity quantity) {
+  if (quantity == Quantity::stress || quantity == Quantity::strain) return {"xx", "yy", "zz", "yz", "xz", "xy"};
+  return {"x", "y", "z"};
+}
+
+}  // namespace koshi::mechanics

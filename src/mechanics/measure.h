@@ -1,0 +1,59 @@
+// What is measured on a state: balance, energies, probes.
+#pragma once
+
+#include <vector>
+
+#include "koshi/model.h"
+#include "mechanics/force_kernel.h"
+#include "mechanics/loads.h"
+
+namespace koshi::mechanics {
+
+/// Sums over the body, equal on all ranks and for any number of ranks.
+struct Balance {
+  double elastic_energy = 0;  ///< [J], -u.F/2
+  double kinetic_energy = 0;  ///< [J], at the time of the displacements
+  double residual = 0;        ///< [N], root of the sum of squares of forces (and moments/d) on free components
+  double reference = 0;       ///< [N], the same of loads and reactions
+
+  /// Unbalanced-force ratio, residual / reference; 0 for a body without any force.
+  double unbalanced_ratio() const { return residual == 0 ? 0 : reference > 0 ? residual / reference : 1; }
+};
+
+/// Values of one probe: 1, 3 or 6 components, SI.
+using ProbeValue = std::vector<double>;
+
+struct Measurement {
+  Balance balance;
+  std::vector<ProbeValue> probes;  ///< by probe
+};
+
+/// Balance and probes at the state's time (collective). `dt`: the step whose midpoint velocities the state holds (0:
+/// they belong to the state's own time).
+class Meter {
+ public:
+  Meter(const model::Model& model, ForceKernel<double>& kernel);
+  Measurement measure(model::State& state, double dt);
+  Balance balance(model::State& state, double dt);
+  /// Reactions [N], [N m] on prescribed components, zero elsewhere (collective).
+  lattice::Field<double> reactions(model::State& state);
+
+ private:
+  /// Calls f(j, k, internal, total) for every row: internal forces and their sum with the loads.
+  template <class F>
+  void for_each_row(model::State& state, F&& f);
+  ProbeValue probe_value(const model::Probe& probe, const model::State& state,
+                         const std::vector<std::array<double, 6>>& node_reactions) const;
+
+  const model::Model& model_;
+  ForceKernel<double>& kernel_;
+  LoadRows loads_;
+  RowIndex motion_rows_;
+};
+
+/// Component names of a probe's quantity: {"x", "y", "z"}, {"xx", ...}; a unit for each quantity.
+std::vector<std::string> component_names(model::ProbeDefinition::Quantity quantity);
+std::string unit_of(model::ProbeDefinition::Quantity quantity);
+std::string name_of(model::ProbeDefinition::Quantity quantity);
+
+}  // namespace koshi::mechanics
