@@ -47,6 +47,8 @@ Calibrated calibrate(const model::LatticeDefinition& asked, const material::Elas
   if (!(lattice.spacing > 0)) throw InputError("the spacing must be positive");
   if (!(elastic.density > 0)) throw InputError("the density must be positive");
   material::require_elastic_solid(elastic);
+  if (lattice.calibration != material::Calibration::paper && (!lattice.equations.empty() || lattice.axes != "xyz"))
+    throw InputError("equations and axes are for calibration \"paper\"; drop them or choose it");
   std::optional<Int3> cells;
   if (size) {
     model::Definition body;

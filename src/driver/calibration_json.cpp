@@ -2,6 +2,7 @@
 
 #include "driver/calibrate.h"
 #include "driver/calibration_words.h"
+#include "model/choices.h"
 
 namespace koshi::driver {
 namespace {
@@ -11,9 +12,9 @@ using nlohmann::json;
 json input(const Calibrated& c) {
   json input{{"cell", lattice::name(c.lattice.cell)},
              {"spacing", c.lattice.spacing},
-             {"springs", name(c.lattice.springs)},
-             {"calibration", name(*c.lattice.calibration)},
-             {"kinematics", name(c.lattice.kinematics)},
+             {"springs", model::choice_name(c.lattice.springs)},
+             {"calibration", model::choice_name(*c.lattice.calibration)},
+             {"kinematics", model::choice_name(c.lattice.kinematics)},
              {"youngs_modulus", c.elastic.youngs_modulus},
              {"poissons_ratio", c.elastic.poissons_ratio},
              {"density", c.elastic.density},

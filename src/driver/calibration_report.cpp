@@ -6,6 +6,7 @@
 
 #include "driver/calibrate.h"
 #include "driver/calibration_words.h"
+#include "model/choices.h"
 
 namespace koshi::driver {
 namespace {
@@ -20,7 +21,8 @@ double percent(double found, double wanted) {
 
 void write_input(const Calibrated& c, Out out) {
   fmt::format_to(out, "{} lattice, {} springs, calibration {}, kinematics {}\n", lattice::name(c.lattice.cell),
-                 name(c.lattice.springs), name(*c.lattice.calibration), name(c.lattice.kinematics));
+                 model::choice_name(c.lattice.springs), model::choice_name(*c.lattice.calibration),
+                 model::choice_name(c.lattice.kinematics));
   if (c.lattice.calibration == material::Calibration::paper)
     fmt::format_to(out, "  equations         {}{}; axes 1, 2, 3 = {}\n", fmt::join(c.lattice.equations, ", "),
                    c.lattice.equations.size() == 1 ? ", kn = kt" : "", fmt::join(c.lattice.axes, ", "));

@@ -1,25 +1,13 @@
-// Words shared by the calibration's text and JSON; they are those of the input file.
+// Words shared by the calibration's text and JSON.
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
 
 #include "mechanics/self_check.h"
 
 namespace koshi::driver {
-
-constexpr std::string_view name(material::Calibration calibration) {
-  constexpr std::array<std::string_view, 3> names{"bending-exact", "isotropic", "paper"};
-  return names[static_cast<std::size_t>(calibration)];
-}
-
-constexpr std::string_view name(material::Sharing sharing) {
-  return sharing == material::Sharing::shared ? "shared" : "plain";
-}
-
-constexpr std::string_view name(material::Kinematics kinematics) {
-  return kinematics == material::Kinematics::rotational ? "rotational" : "least-squares";
-}
 
 constexpr std::string_view name(mechanics::Verdict verdict) {
   constexpr std::array<std::string_view, 3> names{"ok", "warning", "refused"};

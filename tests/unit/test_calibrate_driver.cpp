@@ -114,6 +114,11 @@ TEST(CalibrateDriver, SaysWhatIsWrong) {
   auto wrong = good;
   wrong.calibration = Calibration::bending_exact;
   EXPECT_THAT(message_of(wrong, rock), HasSubstr("\"cube-III\", not \"cube-II\""));
+  auto unread = good;
+  unread.equations = {"C1122", "C1212"};
+  EXPECT_THAT(message_of(unread, rock), HasSubstr("are for calibration \"paper\""));
+  unread.calibration = Calibration::paper;
+  EXPECT_EQ(message_of(unread, rock), "no error");
 }
 
 }  // namespace

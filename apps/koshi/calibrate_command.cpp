@@ -1,0 +1,115 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/suggest.h"
+#include "commands.h"
+#include "driver/calibrate.h"
+#include "io/units.h"
+#include "koshi/error.h"
+#include "model/choices.h"
+
+namespace koshi::app {
+namespace {
+
+/// The options as they stand on the command line; quantities may carry units.
+struct Options {
+  std::string cell{lattice::name(lattice::CellType::cube_iii)};
+  std::string youngs_modulus, poissons_ratio, spacing;
+  std::string density = "2000 kg/m^3";
+  std::vector<std::string> size;
+  std::string springs = "shared", calibration, kinematics = "rotational";
+  std::vector<std::string> equations;
+  std::string axes = "xyz";
+  bool json = false;
+  std::string dispersion;
+};
+
+/// The enumerator a word stands for; the option is the place of the error.
+template <class E>
+E choose(const std::string& option, const std::string& word) {
+  for (const auto& choice : model::choices<E>)
+    if (choice.name == word) return choice.value;
+  const std::vector<std::string> known = model::choice_names<E>();
+  throw InputError(Place{option}, fmt::format("\"{}\" is not known; {}", word, suggestion(word, known)));
+}
+
+model::LatticeDefinition read_lattice(const Options& options) {
+  model::LatticeDefinition lattice;
+  lattice.cell = choose<lattice::CellType>("--cell", options.cell);
+  lattice.spacing = io::parse_quantity(options.spacing, io::Dimension::length, Place{"--spacing"});
+  lattice.springs = choose<material::Sharing>("--springs", options.springs);
+  if (!options.calibration.empty())
+    lattice.calibration = choose<material::Calibration>("--calibration", options.calibration);
+  lattice.kinematics = choose<material::Kinematics>("--kinematics", options.kinematics);
+  lattice.equations = options.equations;
+  lattice.axes = options.axes;
+  return lattice;
+}
+
+void run(const Options& options) {
+  const model::LatticeDefinition lattice = read_lattice(options);
+  const material::Elastic elastic{
+      io::parse_quantity(options.youngs_modulus, io::Dimension::pressure, Place{"--youngs-modulus"}),
+      io::parse_quantity(options.poissons_ratio, io::Dimension::number, Place{"--poissons-ratio"}),
+      io::parse_quantity(options.density, io::Dimension::density, Place{"--density"})};
+  std::optional<Vec3> size;
+  if (!options.size.empty()) {
+    size.emplace();
+    for (int axis = 0; axis < 3; ++axis)
+      (*size)[axis] = io::parse_quantity(options.size[axis], io::Dimension::length, Place{"--size"});
+  }
+
+  const driver::Calibrated calibrated = driver::calibrate(lattice, elastic, size);
+  if (options.json)
+    std::cout << driver::calibration_json(calibrated).dump(2) << '\n';
+  else
+    std::cout << driver::calibration_report(calibrated);
+  if (!options.dispersion.empty()) {
+    std::ofstream file(options.dispersion);
+    if (!(file << driver::dispersion_csv(calibrated) << std::flush))
+      throw InputError(Place{"--dispersion"}, fmt::format("cannot write \"{}\"", options.dispersion));
+  }
+  // The report says so too; the exit code tells scripts.
+  if (calibrated.check.verdict == mechanics::Verdict::refuse)
+    throw InputError(fmt::format("{}; {}", calibrated.check.reason, calibrated.check.remedy));
+}
+
+}  // namespace
+
+void add_calibrate_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand(
+      "calibrate", "Springs from Young's modulus and Poisson's ratio, and what they give; quantities may carry units");
+  const auto options = std::make_shared<Options>();
+  command->add_option("--cell", options->cell, "Unit cell: cube-I, cube-II or cube-III")->capture_default_str();
+  command->add_option("--youngs-modulus", options->youngs_modulus, "Young's modulus, such as \"1112 MPa\"")->required();
+  command->add_option("--poissons-ratio", options->poissons_ratio, "Poisson's ratio, between -1 and 0.5")->required();
+  command->add_option("--spacing", options->spacing, "Side of a cell, such as \"0.2 cm\"")->required();
+  command->add_option("--density", options->density, "Density, for wave speeds and time steps")->capture_default_str();
+  command
+      ->add_option("--size", options->size,
+                   "Three sizes of the body whose bonds are summed; without them the unit cell inside the bulk")
+      ->expected(3);
+  command->add_option("--springs", options->springs, "shared or plain")->capture_default_str();
+  command->add_option(
+      "--calibration", options->calibration,
+      "bending-exact, isotropic or paper; unset: bending-exact for shared Cube-III, isotropic for shared "
+      "Cube-I and -II, paper for plain springs");
+  command->add_option("--kinematics", options->kinematics, "rotational or least-squares")->capture_default_str();
+  command
+      ->add_option("--equations", options->equations,
+                   "Calibration paper: entries of C set equal to the elastic tensor, such as C1122 C1212")
+      ->expected(1, 2);
+  command->add_option("--axes", options->axes, "Calibration paper: which body axes are 1, 2, 3 of C")
+      ->capture_default_str();
+  command->add_flag("--json", options->json, "Print JSON in SI units");
+  command->add_option("--dispersion", options->dispersion, "Write wave speeds over wavelength to this CSV file");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace koshi::app
