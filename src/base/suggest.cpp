@@ -44,8 +44,8 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
   const std::string* best = nullptr;
   std::size_t least = longest;
   for (const auto& name : known) {
-    // One typing error in three letters, at most three.
-    const std::size_t allowed = std::min<std::size_t>(3, name.size() / 3);
+    // One typing error in three letters, at most three; one in a word of two letters, none in a single letter.
+    const std::size_t allowed = std::clamp<std::size_t>(name.size() / 3, name.size() > 1 ? 1 : 0, 3);
     const std::size_t distance = edit_distance(word, name);
     if (distance > allowed || distance >= least) continue;
     best = &name;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "io/toml_form.h"
 
@@ -230,13 +231,14 @@ Form<std::vector<std::string>> form(Tag<std::vector<std::string>>) {
             const std::string expected = form(Tag<Type>{}).expected(spec);
             if (value.array() == nullptr) wrong_form(value, spec, expected);
             out.clear();
+            std::set<std::string> seen;
             for (const Value& element : *value.array()) {
               const std::string* word = element.text();
               if (word == nullptr) wrong_form(element, element_of(spec, out.size()), expected);
               if (!spec.allowed.empty() &&
                   std::find(spec.allowed.begin(), spec.allowed.end(), *word) == spec.allowed.end())
-                unknown_word(element.place, spec.name, *word, spec.allowed);
-              if (std::find(out.begin(), out.end(), *word) != out.end())
+                unknown_word(element.place, "entry of " + spec.name, *word, spec.allowed);
+              if (!seen.insert(*word).second)
                 throw InputError(element.place, fmt::format("{} lists \"{}\" twice; once is enough", spec.name, *word));
               out.push_back(*word);
             }

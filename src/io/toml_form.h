@@ -29,6 +29,7 @@ struct Spec {
   Dimension rotation = Dimension::angle;  ///< of the rotations among the six components
   std::string unset_word{};               ///< the word that stands for an unset value ("auto"); empty: none
   std::vector<std::string> allowed{};     ///< of a list of words; empty: any
+  std::string title{};                    ///< of a nested table in messages; empty: [name]
 };
 
 template <class T>
@@ -68,8 +69,8 @@ Form<std::map<int, std::string>> form(Tag<std::map<int, std::string>>);
 /// Throws "NAME is WHAT IT IS; expected ...".
 [[noreturn]] void wrong_form(const Value& value, const Spec& spec, const std::string& expected);
 
-/// Throws for a word that is not among the allowed ones.
-[[noreturn]] void unknown_word(const Place& place, const std::string& name, const std::string& word,
+/// Throws "unknown WHAT WORD; did you mean ...? allowed: ...".
+[[noreturn]] void unknown_word(const Place& place, const std::string& what, const std::string& word,
                                const std::vector<std::string>& allowed);
 
 /// JSON Schema of one of some words.
@@ -106,7 +107,11 @@ Form<std::optional<T>> form(Tag<std::optional<T>>) {
       .read =
           [](const Value& value, const Spec& spec, std::optional<T>& out) {
             out.reset();
-            if (!spec.unset_word.empty() && value.text() != nullptr && *value.text() == spec.unset_word) return;
+            if (!spec.unset_word.empty() && value.text() != nullptr) {
+              if (*value.text() == spec.unset_word) return;
+              const bool a_word = value.text()->find_first_of("0123456789") == std::string::npos;
+              if (a_word) wrong_form(value, spec, form(Tag<std::optional<T>>{}).expected(spec));
+            }
             form(Tag<T>{}).read(value, spec, out.emplace());
           },
       .write =

@@ -31,8 +31,7 @@ void check_meaningless(const Table& table, const KeyInfo& key) {
     return deciding != nullptr && deciding->value.overridden;
   };
   if (!entry->value.overridden && std::any_of(key.deciding.begin(), key.deciding.end(), overridden)) return;
-  throw InputError(entry->place,
-                   fmt::format("\"{}\" has no meaning here; it belongs to {}", entry->key, key.condition));
+  throw InputError(entry->place, fmt::format("\"{}\" has no meaning here; it goes with {}", entry->key, key.condition));
 }
 
 std::string inline_table(const std::vector<std::string>& assignments) {

@@ -28,9 +28,9 @@ struct KeyInfo {
 /// One key of the table of TOML that fills a struct S.
 template <class S>
 struct Key : KeyInfo {
-  std::function<void(const Value&, S&)> read;
-  std::function<std::string(const S&)> write;  ///< TOML text; empty for an unset value
-  std::function<bool(const S&)> applies;       ///< none: always
+  std::function<void(const Value&, const Spec&, S&)> read;
+  std::function<std::string(const S&, const Spec&)> write;  ///< TOML text; empty for an unset value
+  std::function<bool(const S&)> applies;                    ///< none: always
 
   bool applies_to(const S& s) const { return !applies || applies(s); }
 
@@ -50,6 +50,7 @@ struct About {
   bool required = false;
   std::string unset_word{};
   std::vector<std::string> allowed{};
+  std::string title{};
 };
 
 /// A key that sets `member`: a pointer to member, or a function from S& to a reference.
@@ -57,15 +58,18 @@ template <class S, class Member>
 Key<S> key(const std::string& name, Member member, const std::string& description, const About& about = {}) {
   using T = std::remove_cvref_t<std::invoke_result_t<Member, S&>>;
   const Form<T> of_type = form(Tag<T>{});
-  const Spec spec{name, about.dimension, about.rotation, about.unset_word, about.allowed};
   Key<S> result;
-  result.spec = spec;
+  result.spec = {name, about.dimension, about.rotation, about.unset_word, about.allowed, about.title};
   result.required = about.required;
   result.description = description;
   result.expected = of_type.expected;
   result.schema = of_type.schema;
-  result.read = [=](const Value& value, S& s) { of_type.read(value, spec, std::invoke(member, s)); };
-  result.write = [=](const S& s) { return of_type.write(std::invoke(member, s), spec); };
+  result.read = [member, read = of_type.read](const Value& value, const Spec& spec, S& s) {
+    read(value, spec, std::invoke(member, s));
+  };
+  result.write = [member, write = of_type.write](const S& s, const Spec& spec) {
+    return write(std::invoke(member, s), spec);
+  };
   return result;
 }
 
@@ -117,7 +121,7 @@ void read_table(const Value& value, const std::string& title, S& out) {
       if (!key.applies_to(out))
         check_meaningless(table, key);
       else if (entry != nullptr)
-        key.read(entry->value, out);
+        key.read(entry->value, key.spec, out);
       else
         check_missing(value, title, key);
     }
@@ -129,7 +133,7 @@ template <class S>
 std::vector<std::string> assignments(const S& value) {
   std::vector<std::string> texts;
   for (const auto& key : keys_of(Tag<S>{})) {
-    const std::string text = key.applies_to(value) ? key.write(value) : std::string();
+    const std::string text = key.applies_to(value) ? key.write(value, key.spec) : std::string();
     if (!text.empty()) texts.push_back(key.spec.name + " = " + text);
   }
   return texts;
@@ -149,7 +153,8 @@ void list_schema(const std::vector<Described>& keys, Json& out);
 template <class S>
 std::vector<Described> described() {
   std::vector<Described> keys;
-  for (const auto& key : keys_of(Tag<S>{})) keys.emplace_back(key, key.required ? std::string() : key.write(S{}));
+  for (const auto& key : keys_of(Tag<S>{}))
+    keys.emplace_back(key, key.required ? std::string() : key.write(S{}, key.spec));
   return keys;
 }
 
@@ -157,7 +162,8 @@ std::vector<Described> described() {
 template <HasKeys S>
 Form<S> form(Tag<S>) {
   return {
-      .read = [](const Value& value, const Spec& spec, S& out) { read_table(value, "[" + spec.name + "]", out); },
+      .read = [](const Value& value, const Spec& spec,
+                 S& out) { read_table(value, spec.title.empty() ? "[" + spec.name + "]" : spec.title, out); },
       .write = [](const S& value, const Spec&) { return inline_table(assignments(value)); },
       .expected = [](const Spec&) { return "a table with " + quoted_list(names_of(keys_of(Tag<S>{}))); },
       .schema = [](const Spec&, Json& out) { object_schema(described<S>(), out); },

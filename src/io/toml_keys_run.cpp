@@ -28,7 +28,8 @@ const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
                         "Run with a time step above the stable limit all the same.")),
       of_stepped(key<D>("safety", &D::safety, "Ratio of the automatic time step to the stable limit.")),
       of_stepped(key<D>("damping", &D::damping,
-                        "Damping of the motion; unset: local with factor 0.8 for quasi-static, none for dynamic.")),
+                        "Damping of the motion; unset: local with factor 0.8 for quasi-static, none for dynamic.",
+                        {.title = "damping"})),
       key<D>("start_from", &D::start_from,
              "Output directory of an earlier run whose displacements are the start of this one."),
   };

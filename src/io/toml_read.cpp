@@ -33,13 +33,12 @@ void fill_in(const Value& root, model::Definition& definition) {
   if (definition.analysis.type == model::AnalysisDefinition::Type::dynamic && !damping_given)
     definition.analysis.damping.kind = model::DampingDefinition::Kind::none;
 
-  // A missing name is filled in; one given as "" is for the check to refuse.
-  const auto name = [&](const std::string& section, std::size_t index, std::string& out) {
-    const Entry* list = find(*root.table(), section);
-    if (find(*(*list->value.array())[index].table(), "name") == nullptr) out = fmt::format("{} {}", section, index + 1);
+  const auto number = [](auto& list, const std::string& section) {
+    for (std::size_t i = 0; i < list.size(); ++i)
+      if (list[i].name.empty()) list[i].name = fmt::format("{} {}", section, i + 1);
   };
-  for (std::size_t i = 0; i < definition.boundaries.size(); ++i) name("boundary", i, definition.boundaries[i].name);
-  for (std::size_t i = 0; i < definition.loads.size(); ++i) name("load", i, definition.loads[i].name);
+  number(definition.boundaries, "boundary");
+  number(definition.loads, "load");
 
   using Probe = model::ProbeDefinition;
   for (Probe& probe : definition.probes)

@@ -12,11 +12,11 @@ void wrong_form(const Value& value, const Spec& spec, const std::string& expecte
   throw InputError(value.place, fmt::format("{} is {}; expected {}", spec.name, describe(value), expected));
 }
 
-void unknown_word(const Place& place, const std::string& name, const std::string& word,
+void unknown_word(const Place& place, const std::string& what, const std::string& word,
                   const std::vector<std::string>& allowed) {
   const auto meant = nearest(word, allowed);
   const std::string question = meant ? fmt::format("did you mean \"{}\"? ", *meant) : "";
-  throw InputError(place, fmt::format("unknown {} \"{}\"; {}allowed: {}", name, word, question, quoted_list(allowed)));
+  throw InputError(place, fmt::format("unknown {} \"{}\"; {}allowed: {}", what, word, question, quoted_list(allowed)));
 }
 
 void words_schema(const std::vector<std::string>& words, Json& out) { out["enum"] = words; }
@@ -91,6 +91,8 @@ Form<std::string> form(Tag<std::string>) {
       .read =
           [](const Value& value, const Spec& spec, std::string& out) {
             if (value.text() == nullptr) wrong_form(value, spec, "a text in quotes");
+            if (value.text()->empty())
+              throw InputError(value.place, fmt::format("{} is empty; give it a text or leave it out", spec.name));
             out = *value.text();
           },
       .write = [](const std::string& value, const Spec&) { return value.empty() ? std::string() : toml_text(value); },

@@ -43,6 +43,41 @@ Value value_of(const toml::node& node, const std::string& file_name) {
   return value;
 }
 
+// Every dot of a key nests one table in another, and trees are walked by recursion: a key of a million dots would
+// exhaust the stack. No key of a case has more than a few.
+void refuse_deep_keys(std::string_view text, const std::string& file_name) {
+  constexpr int most = 100;
+  int line = 1;
+  int column = 0;
+  int dots = 0;
+  bool in_comment = false;
+  for (const char c : text) {
+    ++column;
+    if (c == '\n') {
+      ++line;
+      column = 0;
+    }
+    if (c == '#') in_comment = true;
+    if (c == '\n') in_comment = false;
+    if (c == '.' && !in_comment && ++dots > most)
+      throw InputError({file_name, line, column}, fmt::format("more than {} dots in a row; keys have a few", most));
+    if (std::string_view(",=[]{}\n").find(c) != std::string_view::npos) dots = 0;
+  }
+}
+
+// The parser's words, with what would be right where they do not say it.
+std::string syntax_message(std::string_view description) {
+  constexpr std::string_view prefix = "Error while parsing ";
+  const bool usual = description.starts_with(prefix);
+  if (usual) description.remove_prefix(prefix.size());
+  const auto mentions = [&](std::string_view words) { return description.find(words) != std::string_view::npos; };
+  std::string hint;
+  if (mentions("determine value type") || mentions("comment or whitespace"))
+    hint = "; text and quantities with a unit need quotes, such as \"0.2 cm\"";
+  if (mentions("cannot redefine")) hint = "; every key and table may stand once";
+  return fmt::format("cannot read {}{}{}", usual ? "" : "the file: ", description, hint);
+}
+
 }  // namespace
 
 const Entry* find(const Table& table, std::string_view key) {
@@ -65,19 +100,20 @@ std::string describe(const Value& value) {
       return fmt::format("the text \"{}\"", text);
     }
     std::string operator()(const DateTime&) const { return "a date or time"; }
-    std::string operator()(const Array& list) const { return fmt::format("a list of {}", list.size()); }
-    std::string operator()(const Table&) const { return "a table"; }
+    std::string operator()(const Array& list) const {
+      return list.empty() ? "an empty list" : fmt::format("a list of {}", list.size());
+    }
+    std::string operator()(const Table& table) const { return table.empty() ? "an empty table" : "a table"; }
   };
   return std::visit(Words{}, value.data);
 }
 
 Value parse_toml(std::string_view text, const std::string& file_name) {
+  refuse_deep_keys(text, file_name);
   try {
     return value_of(toml::parse(text, std::string_view(file_name)), file_name);
   } catch (const toml::parse_error& error) {
-    throw InputError(place_of(error.source(), file_name),
-                     fmt::format("not TOML: {}; text and quantities with units need quotes, such as \"0.2 cm\"",
-                                 error.description()));
+    throw InputError(place_of(error.source(), file_name), syntax_message(error.description()));
   }
 }
 

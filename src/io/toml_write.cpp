@@ -27,7 +27,7 @@ std::string resolved_toml(const model::Definition& definition) {
   for (auto& region : resolved.regions) make_absolute(definition.directory, region.file);
 
   std::string out = "# The whole input with every default, in SI units.\n";
-  out += fmt::format("title = {}\n", toml_text(resolved.title));
+  if (!resolved.title.empty()) out += fmt::format("title = {}\n", toml_text(resolved.title));
   write_table("[lattice]", resolved.lattice, out);
   write_table("[body]", resolved.body, out);
   for (const auto& material : resolved.materials)

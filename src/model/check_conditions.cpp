@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "model/check.h"
 #include "model/choices.h"
@@ -9,19 +10,20 @@
 namespace koshi::model {
 namespace {
 
-// Names head columns and keys of the output: not empty, of one line, different.
+// Names head columns and keys of the output: of one line, different. Only probes need one.
 template <class D>
 void check_names(const Checker& check, const std::string& section, const std::vector<D>& list) {
+  std::set<std::string> names;
   for (std::size_t i = 0; i < list.size(); ++i) {
     const std::string path = fmt::format("{}[{}].name", section, i);
     const std::string& name = list[i].name;
+    if (name.empty() && section != "probe") continue;
     if (name.empty())
       check.fail(path, fmt::format("the name of a {} is empty; give it a name, such as \"top\"", section));
     if (std::any_of(name.begin(), name.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
       check.fail(path, fmt::format("the name of a {} holds a control character; names are of one line", section));
-    for (std::size_t j = 0; j < i; ++j)
-      if (list[j].name == name)
-        check.fail(path, fmt::format("two {} tables are called \"{}\"; names must differ", section, name));
+    if (!names.insert(name).second)
+      check.fail(path, fmt::format("two {} tables are called \"{}\"; names must differ", section, name));
   }
 }
 
