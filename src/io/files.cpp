@@ -44,15 +44,20 @@ std::filesystem::path part_of(const std::filesystem::path& path) { return path.n
 
 std::string system_reason(int error_number) { return std::generic_category().message(error_number); }
 
-void replace_file(const std::filesystem::path& path, std::string_view content) {
+std::error_code try_replace_file(const std::filesystem::path& path, std::string_view content) {
   const std::filesystem::path part = part_of(path);
   bool done = false;
   if (const Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC); file)
     done = write_all(file.value(), content) && ::fsync(file.value()) == 0;
-  if (done && ::rename(part.c_str(), path.c_str()) == 0) return;
-  const std::string reason = system_reason(errno);
+  if (done && ::rename(part.c_str(), path.c_str()) == 0) return {};
+  const std::error_code error(errno, std::generic_category());
   ::unlink(part.c_str());
-  throw RunError(fmt::format("cannot write {}: {}", path.native(), reason));
+  return error;
+}
+
+void replace_file(const std::filesystem::path& path, std::string_view content) {
+  if (const std::error_code error = try_replace_file(path, content))
+    throw RunError(fmt::format("cannot write {}: {}", path.native(), error.message()));
 }
 
 std::string read_file(const std::filesystem::path& path) {

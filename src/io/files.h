@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <string>
 #include <string_view>
+#include <system_error>
 
 namespace koshi::io {
 
@@ -13,8 +14,10 @@ std::filesystem::path part_of(const std::filesystem::path& path);
 /// Text of a system error, e.g. "No space left on device".
 std::string system_reason(int error_number);
 
-/// Puts a file with this content at `path`: written beside, flushed to the disk, renamed. Throws RunError with the
-/// system's reason; the file that was there before then stays as it was.
+/// Puts a file with this content at `path`: written beside, flushed to the disk, renamed. On failure the file that was
+/// there before stays as it was; try_replace_file() returns the system's error, replace_file() throws a RunError with
+/// it.
+std::error_code try_replace_file(const std::filesystem::path& path, std::string_view content);
 void replace_file(const std::filesystem::path& path, std::string_view content);
 
 /// Content of a file. Throws InputError with the system's reason.

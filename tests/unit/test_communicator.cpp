@@ -2,7 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <stdexcept>
+#include <string>
 
+#include "base/collective.h"
+#include "base/memory.h"
 #include "koshi/communicator.h"
 
 namespace koshi {
@@ -52,6 +56,39 @@ TEST_F(CommunicatorTest, HandleNamesTheSameRanks) {
   const Communicator same = Communicator::from_handle(world.handle());
   EXPECT_EQ(same.rank(), rank);
   EXPECT_EQ(same.sum(1), 3);
+}
+
+// What one rank throws, all throw: the first rank's, with its kind and place.
+TEST_F(CommunicatorTest, ErrorsOfOneRankAreErrorsOfAll) {
+  int input_errors = 0, run_errors = 0;
+  for (int thrower = 0; thrower < world.size(); ++thrower) {
+    try {
+      collectively(world, [&] {
+        if (rank >= thrower) throw InputError(Place{"case.toml", 3, 10 + rank}, "wrong");
+      });
+    } catch (const InputError& error) {
+      ++input_errors;
+      EXPECT_EQ(std::string(error.what()), "case.toml:3:" + std::to_string(10 + thrower) + ": error: wrong");
+    }
+    try {
+      collectively(world, [&] {
+        if (rank == thrower) throw std::length_error("too long");
+      });
+    } catch (const RunError& error) {
+      ++run_errors;
+      EXPECT_STREQ(error.what(), "too long");
+    }
+  }
+  EXPECT_EQ(input_errors, 3);
+  EXPECT_EQ(run_errors, 3);
+  EXPECT_NO_THROW(collectively(world, [] {}));
+}
+
+TEST_F(CommunicatorTest, MemoryOfAllRanks) {
+  const double mine = peak_memory(), all = peak_memory(world);
+  EXPECT_GE(all, 3 * world.min(mine));
+  // Peaks may grow a little between the two looks.
+  EXPECT_LE(all, 3 * world.max(mine) + 1e7);
 }
 
 }  // namespace

@@ -1,0 +1,27 @@
+#include "base/log.h"
+
+#include <string>
+
+#include "base/console.h"
+
+namespace koshi {
+namespace {
+
+LogLevel& level() {
+  static LogLevel current;
+  return current;
+}
+
+}  // namespace
+
+void set_log_level(const LogLevel& wanted) { level() = wanted; }
+
+void log_information(std::string_view text) {
+  if (level().information) Console::standard().print(text);
+}
+
+void log_warning(std::string_view text) {
+  if (level().warnings) Console::standard().print("warning: " + std::string(text));
+}
+
+}  // namespace koshi
