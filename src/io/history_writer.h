@@ -33,7 +33,7 @@ class HistoryWriter {
   };
   Communicator communicator_;
   std::filesystem::path path_;
-  [[maybe_unused]] std::size_t columns_;  // checked in debug builds
+  [[maybe_unused]] std::size_t columns_;    // checked in debug builds
   std::unique_ptr<std::FILE, Close> file_;  // on the root
 };
 

@@ -43,14 +43,19 @@ CellState cell_state(const model::SpringLattice& body, const lattice::Field<doub
     const auto& s = lattice::slots[bond.slot].s;
     const Vec3 D = -d * Vec3{static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])};
     const Vec3 w = rotational ? 0.5 * (rotation[bond.a] + rotation[bond.b]) : state.rotation;
-    const Vec3 F = bond_force(kn, kt, D, relative_displacement(displacement[bond.a], displacement[bond.b], w, D)).F;
+    const Vec3 r = relative_displacement(displacement[bond.a], displacement[bond.b], w, D);
+    const Vec3 F = bond_force(kn, kt, D, r).F;
+    state.energy += bond_energy(kn, kt, D, r) / volume;
     for (int v = 0; v < 6; ++v) {
       const auto [i, j] = pairs[v];
       state.stress[v] += 0.5 * (D[i] * F[j] + D[j] * F[i]) / volume;
     }
   }
   const double pressure = body.springs[material].kappa * (state.strain[0] + state.strain[1] + state.strain[2]);
-  for (int v = 0; v < 3; ++v) state.stress[v] += pressure;
+  for (int v = 0; v < 3; ++v) {
+    state.stress[v] += pressure;
+    state.energy += 0.5 * pressure * state.strain[v];
+  }
   return state;
 }
 

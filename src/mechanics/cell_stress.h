@@ -10,10 +10,11 @@ namespace koshi::mechanics {
 using Tensor6 = std::array<double, 6>;
 
 struct CellState {
-  Tensor6 strain{};  ///< of the linear field fitted to the corners (N22)
-  Tensor6 stress{};  ///< [Pa], virial: 1/d^3 sum over the cell's part of its bonds of D F, symmetric, plus kappa theta
-                     ///< (N18)
-  Vec3 rotation{};   ///< [rad], of the fitted field
+  Tensor6 strain{};   ///< of the linear field fitted to the corners (N22)
+  Tensor6 stress{};   ///< [Pa], virial: 1/d^3 sum over the cell's part of its bonds of D F, symmetric, plus kappa theta
+                      ///< (N18)
+  Vec3 rotation{};    ///< [rad], of the fitted field
+  double energy = 0;  ///< elastic energy over the cell's volume [J/m^3]
 };
 
 /// Of the cell with lowest corner `cell`, which must touch an owned node and be solid; ghosts of u up to date.

@@ -1,0 +1,61 @@
+#include <fmt/format.h>
+
+#include <chrono>
+
+#include "driver/calibrate.h"
+#include "driver/simulation.h"
+#include "koshi/input.h"
+#include "koshi/run.h"
+#include "mechanics/stable_step.h"
+
+namespace koshi::driver {
+namespace {
+
+// Seconds of one force pass over the body, the least of three.
+double seconds_per_pass(const model::Model& model, mechanics::ForceKernel<double>& kernel) {
+  lattice::Field<double> u(model.layout(), model.components()), force(model.layout(), model.components());
+  double least = std::numeric_limits<double>::infinity();
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    const auto start = std::chrono::steady_clock::now();
+    kernel.apply(u, force);
+    least = std::min(least, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  }
+  return least;
+}
+
+std::string duration(double seconds) {
+  if (seconds < 120) return fmt::format("{:.2g} s", seconds);
+  if (seconds < 7200) return fmt::format("{:.2g} min", seconds / 60);
+  return fmt::format("{:.2g} h", seconds / 3600);
+}
+
+std::string explicit_part(const model::Model& model) {
+  mechanics::ForceKernel<double> kernel(model.lattice);
+  const mechanics::StableStep stable = mechanics::stable_step(model, kernel);
+  const model::AnalysisDefinition& analysis = model.definition.analysis;
+  const double dt = analysis.time_step.value_or(analysis.safety * stable.limit());
+  std::string text = fmt::format("time step     {:.4g} s of at most {:.4g} s (d/c_p = {:.4g} s, 2/omega_max = {:.4g} s)\n", dt,
+                                 stable.limit(), stable.wave, stable.frequency);
+  if (!analysis.duration) return text;
+  const double steps = *analysis.duration / dt;
+  return text + fmt::format("steps         {:.4g}, about {}\n", steps, duration(1.5 * steps * seconds_per_pass(model, kernel)));
+}
+
+}  // namespace
+
+std::string check(const model::Definition& definition, const Communicator& communicator) {
+  const model::Model model = model::make_model(definition, communicator);
+  std::string text = "# resolved input\n" + io::resolved_toml(definition) + "\n# what it means\n";
+  const Int3& cells = model.lattice.grid.cells;
+  text += fmt::format("cells         {} x {} x {}, {} solid\nnodes         {}, {} unknowns\n", cells[0], cells[1], cells[2],
+                      model.cell_count, model.node_count, model.node_count * model.components());
+  text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB\n", model.motion_count,
+                      model::predicted_memory(definition) / 1e9);
+  if (definition.analysis.type != model::AnalysisDefinition::Type::statics) text += explicit_part(model);
+  for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
+    text += fmt::format("\n# material {}\n", definition.materials[m - 1].name) +
+            calibration_report(examine(definition.lattice, model.materials[m], model.lattice.springs[m]));
+  return text;
+}
+
+}  // namespace koshi::driver

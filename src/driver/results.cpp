@@ -1,0 +1,130 @@
+#include "driver/results.h"
+
+#include <fmt/format.h>
+
+namespace koshi::driver {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Type = model::AnalysisDefinition::Type;
+
+constexpr std::array<const char*, 3> families{"edge", "face", "body"};
+constexpr std::array<const char*, 3> types{"static", "quasi-static", "dynamic"};
+
+Json springs(const model::Model& model) {
+  Json all = Json::object();
+  for (std::size_t m = 1; m < model.lattice.springs.size(); ++m) {
+    const material::Springs& s = model.lattice.springs[m];
+    Json entry;
+    for (std::size_t f = 0; f < families.size(); ++f) entry[families[f]] = {{"kn", s.kn[f]}, {"kt", s.kt[f]}};
+    entry["kappa"] = s.kappa;
+    all[model.definition.materials[m - 1].name] = entry;
+  }
+  return all;
+}
+
+Json analysis(const model::Model& model, const model::State& state, const Outcome& outcome) {
+  Json entry{{"type", types[static_cast<std::size_t>(model.definition.analysis.type)]}};
+  if (outcome.solution) {
+    const statics::SolveReport& s = *outcome.solution;
+    entry.update({{"unknowns", s.unknowns},
+                  {"iterations", s.iterations},
+                  {"levels", s.levels},
+                  {"residual", s.relative_residual},
+                  {"converged", s.converged},
+                  {"reason", s.reason},
+                  {"projected_motions", s.projected_motions},
+                  {"residual_history", s.residual_history}});
+    return entry;
+  }
+  entry.update({{"steps", outcome.steps},
+                {"time", state.time},
+                {"time_step", outcome.time_step},
+                {"stable_step", {{"wave", outcome.stable->wave}, {"frequency", outcome.stable->frequency}}},
+                {"residual", outcome.measurement.balance.unbalanced_ratio()},
+                {"converged", outcome.converged}});
+  return entry;
+}
+
+Json performance(const model::Model& model, const Outcome& outcome, double peak_memory) {
+  Json entry{{"seconds", outcome.seconds}, {"ranks", model.communicator.size()}, {"peak_memory", peak_memory}};
+  if (outcome.solution) {
+    entry["setup_seconds"] = outcome.solution->setup_seconds;
+    entry["solve_seconds"] = outcome.solution->solve_seconds;
+    entry["unknowns_per_second"] = static_cast<double>(outcome.solution->unknowns) / outcome.seconds;
+  } else {
+    entry["node_steps_per_second"] =
+        static_cast<double>(model.node_count) * static_cast<double>(outcome.steps) / outcome.seconds;
+  }
+  return entry;
+}
+
+}  // namespace
+
+std::vector<std::string> history_columns(const model::Model& model) {
+  std::vector<std::string> columns{"time [s]"};
+  for (const model::Probe& probe : model.probes) {
+    const auto quantity = probe.definition.quantity;
+    for (const std::string& component : mechanics::component_names(quantity))
+      columns.push_back(fmt::format("{}.{}.{} [{}]", probe.definition.name, mechanics::name_of(quantity), component,
+                                    mechanics::unit_of(quantity)));
+  }
+  for (const char* energy : {"elastic energy [J]", "kinetic energy [J]", "unbalanced-force ratio [1]"})
+    columns.emplace_back(energy);
+  return columns;
+}
+
+std::vector<double> history_row(double time, const mechanics::Measurement& measurement) {
+  std::vector<double> row{time};
+  for (const mechanics::ProbeValue& value : measurement.probes) row.insert(row.end(), value.begin(), value.end());
+  const mechanics::Balance& balance = measurement.balance;
+  row.insert(row.end(), {balance.elastic_energy, balance.kinetic_energy, balance.unbalanced_ratio()});
+  return row;
+}
+
+nlohmann::ordered_json summary(const model::Model& model, const model::State& state, const Outcome& outcome,
+                               double peak_memory) {
+  const mechanics::Measurement& end = outcome.measurement;
+  Json probes = Json::object();
+  for (std::size_t p = 0; p < model.probes.size(); ++p) {
+    const model::ProbeDefinition& probe = model.probes[p].definition;
+    probes[probe.name][mechanics::name_of(probe.quantity)] = end.probes[p];
+  }
+  return {{"title", model.definition.title},
+          {"version", KOSHI_VERSION},
+          {"body",
+           {{"cells", model.lattice.grid.cells},
+            {"solid_cells", model.cell_count},
+            {"nodes", model.node_count},
+            {"volume", model.volume()}}},
+          {"springs", springs(model)},
+          {"analysis", analysis(model, state, outcome)},
+          {"probes", probes},
+          {"energy", {{"elastic", end.balance.elastic_energy}, {"kinetic", end.balance.kinetic_energy}}},
+          {"performance", performance(model, outcome, peak_memory)}};
+}
+
+std::string headline(const model::Model& model, const Outcome& outcome) {
+  std::string text;
+  if (outcome.solution)
+    text = fmt::format("equilibrium of {} unknowns in {} iterations, residual {:.1e}, {:.3g} s\n",
+                       outcome.solution->unknowns, outcome.solution->iterations, outcome.solution->relative_residual,
+                       outcome.seconds);
+  else
+    text = fmt::format(
+        "{} nodes, {} steps of {:.4g} s, unbalanced-force ratio {:.1e}, {:.3g} s ({:.3g} million node-steps/s)\n",
+        model.node_count, outcome.steps, outcome.time_step, outcome.measurement.balance.unbalanced_ratio(),
+        outcome.seconds,
+        1e-6 * static_cast<double>(model.node_count) * static_cast<double>(outcome.steps) / outcome.seconds);
+  for (std::size_t p = 0; p < model.probes.size(); ++p) {
+    const model::ProbeDefinition& probe = model.probes[p].definition;
+    text += fmt::format("  {} {}: ", probe.name, mechanics::name_of(probe.quantity));
+    const auto names = mechanics::component_names(probe.quantity);
+    for (std::size_t c = 0; c < names.size(); ++c)
+      text += fmt::format("{}{} = {:.6g}", c == 0 ? "" : ", ", names[c], outcome.measurement.probes[p][c]);
+    text += fmt::format(" {}\n", mechanics::unit_of(probe.quantity));
+  }
+  return text;
+}
+
+}  // namespace koshi::driver

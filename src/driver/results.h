@@ -1,0 +1,24 @@
+// What a run reports: columns of the history, the summary.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include <string>
+#include <vector>
+
+#include "driver/simulation.h"
+
+namespace koshi::driver {
+
+/// Columns of history.csv: time, probes, energies, unbalanced-force ratio.
+std::vector<std::string> history_columns(const model::Model& model);
+std::vector<double> history_row(double time, const mechanics::Measurement& measurement);
+
+/// summary.json (docs/formats/output.md); `peak_memory` [bytes] of all ranks together.
+nlohmann::ordered_json summary(const model::Model& model, const model::State& state, const Outcome& outcome,
+                               double peak_memory);
+
+/// A few lines for the terminal.
+std::string headline(const model::Model& model, const Outcome& outcome);
+
+}  // namespace koshi::driver

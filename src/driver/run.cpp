@@ -1,0 +1,53 @@
+#include "koshi/run.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+
+#include "base/memory.h"
+#include "base/progress.h"
+#include "driver/fields.h"
+#include "driver/results.h"
+#include "io/field_writer.h"
+#include "io/history_writer.h"
+#include "io/output_directory.h"
+#include "io/summary.h"
+#include "koshi/input.h"
+
+namespace koshi::driver {
+
+void run(const model::Definition& definition, const RunOptions& options, const Communicator& communicator) {
+  // Everything that can be wrong with the input is found before the output directory is made.
+  Simulation simulation(definition, communicator);
+  const model::Model& model = simulation.model();
+  io::prepare_output_directory(communicator, options.directory);
+  io::write_resolved(communicator, options.directory, io::resolved_toml(definition));
+
+  io::FieldWriter field_writer(model, options.directory, std::nullopt);
+  io::HistoryWriter history(communicator, options.directory, history_columns(model), std::nullopt);
+  Progress progress(options.quiet || !communicator.is_root(), definition.title.empty() ? "koshi" : definition.title);
+
+  Observer observer;
+  observer.history = [&](const mechanics::Measurement& measurement, model::State& state) {
+    history.write(history_row(state.time, measurement));
+  };
+  observer.fields = [&](model::State& state, double) {
+    const FieldSet set(definition.output.fields, model, state, simulation.meter());
+    field_writer.write(state.time, set.fields());
+  };
+  observer.progress = [&](double fraction, const std::string& details) { progress.update(fraction, details); };
+
+  const Outcome outcome = simulation.run(observer, options.petsc_options);
+  io::write_summary(communicator, options.directory,
+                    summary(model, simulation.state(), outcome, peak_memory(communicator)));
+  progress.finish("");
+  if (!options.quiet && communicator.is_root())
+    fmt::print("{}results in {}\n", headline(model, outcome), options.directory.string());
+  if (!outcome.converged)
+    throw RunError(fmt::format("not at rest after {} steps: unbalanced-force ratio {:.2e}, tolerance {:.2e}; give more time "
+                               "(analysis.duration), more damping, or a larger tolerance; the results so far are in {}",
+                               outcome.steps, outcome.measurement.balance.unbalanced_ratio(), definition.analysis.tolerance,
+                               options.directory.string()));
+}
+
+}  // namespace koshi::driver
