@@ -1,1 +1,43 @@
-int main() { return 0; }
+// The program `koshi`. Exit code 0: done, 1: the run failed, 2: bad input.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <iostream>
+
+#include "commands.h"
+#include "koshi/error.h"
+
+int main(int argc, char** argv) {
+  using koshi::app::Arguments;
+  const Arguments all(argv, argv + argc);
+  // What follows "--" is for PETSc.
+  const auto separator = std::find(all.begin(), all.end(), "--");
+  const Arguments own(all.begin(), separator);
+  const Arguments petsc(separator == all.end() ? separator : separator + 1, all.end());
+
+  CLI::App app{"Koshi: lattice spring engine for elastic solids", "koshi"};
+  app.set_version_flag("--version", "koshi " KOSHI_VERSION);
+  app.require_subcommand(1);
+  koshi::app::add_run_command(app, all, petsc);
+  koshi::app::add_check_command(app);
+  koshi::app::add_calibrate_command(app);
+  koshi::app::add_paper_command(app);
+  koshi::app::add_schema_command(app);
+  try {
+    // CLI11 takes the arguments in reverse order, without the program's name.
+    Arguments reversed(own.rbegin(), own.rend() - 1);
+    app.parse(reversed);
+    return 0;
+  } catch (const CLI::Success& success) {
+    return app.exit(success);
+  } catch (const CLI::ParseError& error) {
+    app.exit(error);
+    return 2;
+  } catch (const koshi::InputError& error) {
+    std::cerr << error.what() << '\n';
+    return 2;
+  } catch (const std::exception& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return 1;
+  }
+}

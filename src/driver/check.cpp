@@ -34,11 +34,13 @@ std::string explicit_part(const model::Model& model) {
   const mechanics::StableStep stable = mechanics::stable_step(model, kernel);
   const model::AnalysisDefinition& analysis = model.definition.analysis;
   const double dt = analysis.time_step.value_or(analysis.safety * stable.limit());
-  std::string text = fmt::format("time step     {:.4g} s of at most {:.4g} s (d/c_p = {:.4g} s, 2/omega_max = {:.4g} s)\n", dt,
-                                 stable.limit(), stable.wave, stable.frequency);
+  std::string text =
+      fmt::format("time step     {:.4g} s of at most {:.4g} s (d/c_p = {:.4g} s, 2/omega_max = {:.4g} s)\n", dt,
+                  stable.limit(), stable.wave, stable.frequency);
   if (!analysis.duration) return text;
   const double steps = *analysis.duration / dt;
-  return text + fmt::format("steps         {:.4g}, about {}\n", steps, duration(1.5 * steps * seconds_per_pass(model, kernel)));
+  return text + fmt::format("steps         {:.4g}, about {}\n", steps,
+                            duration(1.5 * steps * seconds_per_pass(model, kernel)));
 }
 
 }  // namespace
@@ -47,8 +49,8 @@ std::string check(const model::Definition& definition, const Communicator& commu
   const model::Model model = model::make_model(definition, communicator);
   std::string text = "# resolved input\n" + io::resolved_toml(definition) + "\n# what it means\n";
   const Int3& cells = model.lattice.grid.cells;
-  text += fmt::format("cells         {} x {} x {}, {} solid\nnodes         {}, {} unknowns\n", cells[0], cells[1], cells[2],
-                      model.cell_count, model.node_count, model.node_count * model.components());
+  text += fmt::format("cells         {} x {} x {}, {} solid\nnodes         {}, {} unknowns\n", cells[0], cells[1],
+                      cells[2], model.cell_count, model.node_count, model.node_count * model.components());
   text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB\n", model.motion_count,
                       model::predicted_memory(definition) / 1e9);
   if (definition.analysis.type != model::AnalysisDefinition::Type::statics) text += explicit_part(model);

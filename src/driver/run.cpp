@@ -8,6 +8,7 @@
 #include "base/progress.h"
 #include "driver/fields.h"
 #include "driver/results.h"
+#include "driver/run_simulation.h"
 #include "io/field_writer.h"
 #include "io/history_writer.h"
 #include "io/output_directory.h"
@@ -16,11 +17,11 @@
 
 namespace koshi::driver {
 
-void run(const model::Definition& definition, const RunOptions& options, const Communicator& communicator) {
-  // Everything that can be wrong with the input is found before the output directory is made.
-  Simulation simulation(definition, communicator);
+Outcome run_simulation(Simulation& simulation, const RunOptions& options) {
   const model::Model& model = simulation.model();
-  io::prepare_output_directory(communicator, options.directory);
+  const model::Definition& definition = model.definition;
+  const Communicator& communicator = model.communicator;
+  io::make_output_directory(communicator, options.directory);
   io::write_resolved(communicator, options.directory, io::resolved_toml(definition));
 
   io::FieldWriter field_writer(model, options.directory, std::nullopt);
@@ -37,17 +38,25 @@ void run(const model::Definition& definition, const RunOptions& options, const C
   };
   observer.progress = [&](double fraction, const std::string& details) { progress.update(fraction, details); };
 
-  const Outcome outcome = simulation.run(observer, options.petsc_options);
+  Outcome outcome = simulation.run(observer, options.petsc_options);
   io::write_summary(communicator, options.directory,
                     summary(model, simulation.state(), outcome, peak_memory(communicator)));
   progress.finish("");
+  return outcome;
+}
+
+void run(const model::Definition& definition, const RunOptions& options, const Communicator& communicator) {
+  // Everything that can be wrong with the input is found before the output directory is made.
+  Simulation simulation(definition, communicator);
+  const Outcome outcome = run_simulation(simulation, options);
   if (!options.quiet && communicator.is_root())
-    fmt::print("{}results in {}\n", headline(model, outcome), options.directory.string());
+    fmt::print("{}results in {}\n", headline(simulation.model(), outcome), options.directory.string());
   if (!outcome.converged)
-    throw RunError(fmt::format("not at rest after {} steps: unbalanced-force ratio {:.2e}, tolerance {:.2e}; give more time "
-                               "(analysis.duration), more damping, or a larger tolerance; the results so far are in {}",
-                               outcome.steps, outcome.measurement.balance.unbalanced_ratio(), definition.analysis.tolerance,
-                               options.directory.string()));
+    throw RunError(
+        fmt::format("not at rest after {} steps: unbalanced-force ratio {:.2e}, tolerance {:.2e}; give more time "
+                    "(analysis.duration), more damping, or a larger tolerance; the results so far are in {}",
+                    outcome.steps, outcome.measurement.balance.unbalanced_ratio(), definition.analysis.tolerance,
+                    options.directory.string()));
 }
 
 }  // namespace koshi::driver

@@ -1,0 +1,79 @@
+#include <CLI/CLI.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+
+#include "commands.h"
+#include "koshi/input.h"
+#include "koshi/run.h"
+#include "launch.h"
+
+namespace koshi::app {
+namespace {
+
+struct Options {
+  std::string file;
+  std::vector<std::string> overrides;
+  driver::RunOptions run;
+  int ranks = 1;
+};
+
+// The case's own name beside it is clutter; results go to "CASE.out" where the program was started.
+std::filesystem::path default_directory(const std::string& file) {
+  return std::filesystem::path(file).stem().string() + ".out";
+}
+
+void run(const Options& options, const Arguments& arguments) {
+  // Read first: wrong input is reported once, and without starting ranks.
+  const model::Definition definition = io::read_case(options.file, options.overrides);
+  if (options.ranks > 1 && !is_launched()) launch(options.ranks, arguments);
+  const Environment environment(nullptr, nullptr);
+  const Communicator world = Communicator::world();
+  try {
+    driver::RunOptions run = options.run;
+    if (run.directory.empty()) run.directory = default_directory(options.file);
+    driver::run(definition, run, world);
+  } catch (const InputError&) {
+    // All ranks throw the same; one of them reports it.
+    if (!world.is_root()) std::_Exit(2);
+    throw;
+  } catch (const RunError&) {
+    if (!world.is_root()) std::_Exit(1);
+    throw;
+  }
+}
+
+}  // namespace
+
+void add_run_command(CLI::App& app, const Arguments& arguments, const Arguments& petsc) {
+  CLI::App* command = app.add_subcommand("run", "Compute a case; PETSc options may follow after --");
+  const auto options = std::make_shared<Options>();
+  options->run.petsc_options = petsc;
+  command->add_option("case", options->file, "Input file (TOML)")->required();
+  command->add_option("--out", options->run.directory, "Output directory; unset: the case's name with .out");
+  command->add_option("--set", options->overrides, "Override an input: section.key=value")->allow_extra_args(false);
+  command->add_option("--ranks", options->ranks, "Number of processes")->check(CLI::Range(1, 1000000));
+  command->add_option("--restart", options->run.restart, "Checkpoint to go on from");
+  command->add_flag("--quiet", options->run.quiet, "Print errors only");
+  command->callback([options, &arguments] { run(*options, arguments); });
+}
+
+void add_check_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("check", "Validate a case and say what it means, without running it");
+  const auto options = std::make_shared<Options>();
+  command->add_option("case", options->file, "Input file (TOML)")->required();
+  command->add_option("--set", options->overrides, "Override an input: section.key=value")->allow_extra_args(false);
+  command->callback([options] {
+    const model::Definition definition = io::read_case(options->file, options->overrides);
+    const Environment environment(nullptr, nullptr);
+    std::cout << driver::check(definition, Communicator::world());
+  });
+}
+
+void add_schema_command(CLI::App& app) {
+  app.add_subcommand("schema", "Print the JSON Schema of the input")->callback([] {
+    std::cout << io::schema_json() << '\n';
+  });
+}
+
+}  // namespace koshi::app
