@@ -114,7 +114,7 @@ std::string table(const std::string& title, const std::vector<Row>& rows, const 
   for (const Row& row : rows) {
     out += fmt::format("| {} ", row.name);
     for (const double x : {row.expected.paper, row.expected.limit, row.value, row.value - row.expected.paper})
-      out += fmt::format("| {} ", fmt::format(fmt::runtime(format), x));
+      out += fmt::format("| {} ", fmt::format(fmt::runtime(format), x + 0.0));
     out += fmt::format("| {} |\n", row.holds() ? "yes" : "NO");
   }
   return out + "\n";
