@@ -43,6 +43,9 @@ PUBLIC = {
     "statics.h": "statics",
     "input.h": "io",
     "output.h": "io",
+    "run.h": "driver",
+    "paper.h": "driver",
+    "report.h": "driver",
 }
 
 # Pattern of a library's headers -> (name, where they may be included: path prefixes).
