@@ -7,6 +7,7 @@
 #include "koshi/calibration.h"
 #include "model/check.h"
 #include "model/choices.h"
+#include "model/regions.h"
 
 namespace koshi::model {
 namespace {
@@ -54,7 +55,7 @@ void check_materials(const Checker& check) {
   const auto& materials = check.definition.materials;
   if (materials.empty()) check.fail("material", "there is no material; define one such as [material.rock]");
   // Cells name their material by a byte, 0 stands for none.
-  constexpr std::size_t most = 255;
+  constexpr std::size_t most = SpringLattice::max_materials;
   if (materials.size() > most)
     check.fail("material", fmt::format("{} materials; at most {} fit in a byte per cell", materials.size(), most));
   std::vector<std::string> names;
@@ -85,36 +86,11 @@ void check_material_name(const Checker& check, const std::string& path, const st
   check.fail(path, fmt::format("there is no material \"{}\"; {}", material, suggestion(material, names)));
 }
 
-void check_size(const Checker& check) {
-  const double d = check.definition.lattice.spacing;
-  const Vec3& size = check.definition.body.size;
-  for (std::size_t a = 0; a < 3; ++a) {
-    const std::string path = fmt::format("body.size[{}]", a);
-    if (!(size[a] > 0) || !std::isfinite(size[a]))
-      check.fail(path, fmt::format("size along {} is {:.12g} m; it must be positive", "xyz"[a], size[a]));
-    // Sizes and spacing are rounded decimals: a millionth of a cell is no difference.
-    constexpr double slack = 1e-6;
-    constexpr double most = 2147483647;
-    const double cells = size[a] / d;
-    if (cells > most)
-      check.fail(path, fmt::format("size along {} is {:.12g} m, {:.3g} spacings of {:.12g} m; at most {:.0f} are "
-                                   "possible, take a larger spacing",
-                                   "xyz"[a], size[a], cells, d, most));
-    if (cells > 1 - slack && std::abs(cells - std::round(cells)) <= slack) continue;
-    const double below = std::floor(cells) * d;
-    const std::string nearest =
-        below > 0 ? fmt::format("{:.12g} m or {:.12g} m", below, below + d) : fmt::format("{:.12g} m", d);
-    check.fail(path, fmt::format("size along {} is {:.12g} m, {:.6g} spacings of {:.12g} m, but must be a whole number "
-                                 "of them; the nearest right sizes: {}",
-                                 "xyz"[a], size[a], cells, d, nearest));
-  }
-}
-
 void check_box_of_cells(const Checker& check) {
   const BodyDefinition& body = check.definition.body;
   check.finite("body.origin", body.origin);
   if (body.image.empty()) {
-    check_size(check);
+    make_grid(check.definition);
     if (body.cells.empty()) check_material_name(check, "body.material", body.material);
     return;
   }

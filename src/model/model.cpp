@@ -95,6 +95,7 @@ double predicted_memory(const Definition& definition) {
 }
 
 Model make_model(const Definition& definition, const Communicator& communicator) {
+  check(definition);
   const lattice::Grid grid = make_grid(definition);
   collectively(communicator, [&] { check_memory(definition); });
   const auto partition = std::make_shared<const lattice::Partition>(lattice::make_partition(grid, communicator.size()));

@@ -3,17 +3,21 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
+
+#include "model/check.h"
 
 namespace koshi::model {
 namespace {
 
-std::uint8_t index_of(const Definition& definition, const std::string& name, const std::string& path) {
+// The index of a material that check() has found to be defined.
+std::uint8_t index_of(const Definition& definition, const std::string& name) {
   if (name == "void") return 0;
-  for (std::size_t m = 0; m < definition.materials.size(); ++m)
-    if (definition.materials[m].name == name) return static_cast<std::uint8_t>(m + 1);
-  throw InputError(definition.places.find(path),
-                   fmt::format("there is no material \"{}\"; define [material.{}]", name, name));
+  const auto& materials = definition.materials;
+  const auto found = std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == name; });
+  assert(found != materials.end());
+  return static_cast<std::uint8_t>(found - materials.begin() + 1);
 }
 
 // Cells are compared by their centres; borders that touch a centre belong to the region, whatever the last bit says.
@@ -45,34 +49,40 @@ bool inside(const RegionDefinition& region, const Vec3& x, double d) {
 }  // namespace
 
 lattice::Grid make_grid(const Definition& definition) {
+  const Checker check(definition);
   lattice::Grid grid;
   grid.d = definition.lattice.spacing;
   grid.origin = definition.body.origin;
   grid.periodic = definition.body.periodic;
-  double total = 1;
-  for (int a = 0; a < 3; ++a) {
-    const double cells = definition.body.size[a] / grid.d;
+  double nodes = 1;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const double size = definition.body.size[a];
+    const double cells = size / grid.d;
     const double whole = std::round(cells);
-    if (!(whole >= 1) || std::abs(cells - whole) > 1e-6 * whole)
-      throw InputError(
-          definition.places.find("body.size"),
-          fmt::format("size {:.9g} m along {} is no positive multiple of the spacing {:.9g} m; nearest: {:.9g} m",
-                      definition.body.size[a], "xyz"[a], grid.d, std::max(whole, 1.0) * grid.d));
-    total *= whole + 1;
-    if (!(total < 1e15))
-      throw InputError(
-          definition.places.find("body.size"),
-          fmt::format("the body would have more than {:.1g} nodes; use a larger spacing or a smaller body", total));
+    // Sizes and spacing are rounded decimals: a millionth of a cell is no difference.
+    constexpr double slack = 1e-6;
+    if (!(whole >= 1) || !(std::abs(cells - whole) <= slack)) {
+      const double below = std::floor(cells) * grid.d;
+      const std::string nearest = cells > 1 ? fmt::format("sizes: {:.12g} m, {:.12g} m", below, below + grid.d)
+                                            : fmt::format("size: {:.12g} m", grid.d);
+      check.fail(fmt::format("body.size[{}]", a),
+                 fmt::format("size along {} is {:.12g} m, no positive multiple of the spacing {:.12g} m; the nearest "
+                             "right {}",
+                             "xyz"[a], size, grid.d, nearest));
+    }
+    // More could not be counted in a double or an index, let alone stored.
+    constexpr double most = 1e15;
+    nodes *= whole + 1;
+    if (!(nodes < most))
+      check.fail(
+          fmt::format("body.size[{}]", a),
+          fmt::format("the body would have more than {:.0e} nodes; use a larger spacing or a smaller body", most));
     grid.cells[a] = static_cast<std::int64_t>(whole);
   }
   return grid;
 }
 
 std::function<std::uint8_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid) {
-  if (definition.materials.size() > SpringLattice::max_materials)
-    throw InputError(definition.places.find("material"),
-                     fmt::format("{} materials, but a cell's material is one byte: at most {}",
-                                 definition.materials.size(), SpringLattice::max_materials));
   const std::vector<std::uint8_t>& image = definition.body.cells;
   const Int3 n = grid.cells;
   if (!image.empty() && static_cast<std::int64_t>(image.size()) != n[0] * n[1] * n[2])
@@ -83,11 +93,10 @@ std::function<std::uint8_t(const Int3&)> material_of_cells(const Definition& def
     if (m > definition.materials.size())
       throw InputError(definition.places.find("body"),
                        fmt::format("cell material {} is not defined; there are {}", m, definition.materials.size()));
-  const std::uint8_t background = image.empty() ? index_of(definition, definition.body.material, "body.material") : 0;
+  const std::uint8_t background = image.empty() ? index_of(definition, definition.body.material) : 0;
   std::vector<std::uint8_t> region_material;
-  for (std::size_t r = 0; r < definition.regions.size(); ++r)
-    region_material.push_back(
-        index_of(definition, definition.regions[r].material, fmt::format("region[{}].material", r)));
+  for (const RegionDefinition& region : definition.regions)
+    region_material.push_back(index_of(definition, region.material));
 
   return [&definition, &image, grid, n, background, region_material](const Int3& cell) {
     const auto at = static_cast<std::size_t>(cell[0] + n[0] * (cell[1] + n[1] * cell[2]));

@@ -15,7 +15,8 @@ namespace koshi::model {
 lattice::Grid make_grid(const Definition& definition);
 
 /// Material index (0 = empty) of a global cell: the body's material or image, then the regions, later ones winning. A
-/// cell belongs to a region when its centre lies inside or on the border. The definition must outlive the function.
+/// cell belongs to a region when its centre lies inside or on the border. The definition must have passed check() and
+/// outlive the function.
 std::function<std::uint8_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid);
 
 }  // namespace koshi::model

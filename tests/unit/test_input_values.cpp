@@ -37,18 +37,19 @@ springs = "plain"
 axes = "xxz")",
        R"(5:8: error: axes is "xxz"; expected a permutation of "xyz" such as "yxz")"},
       {R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"])", R"(size = ["0.8 cm", "0.85 cm", "1.6 cm"])",
-       "6:19: error: size along y is 0.0085 m, 4.25 spacings of 0.002 m, but must be a whole number of them; the "
-       "nearest right sizes: 0.008 m or 0.01 m"},
+       "6:19: error: size along y is 0.0085 m, no positive multiple of the spacing 0.002 m; the nearest right sizes: "
+       "0.008 m, 0.01 m"},
       {R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"])", R"(size = ["0.8 cm", "0.8 cm", "1 mm"])",
-       "6:29: error: size along z is 0.001 m, 0.5 spacings of 0.002 m, but must be a whole number of them; the nearest "
-       "right sizes: 0.002 m"},
+       "6:29: error: size along z is 0.001 m, no positive multiple of the spacing 0.002 m; the nearest right size: "
+       "0.002 m"},
       {R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"])", R"(size = ["0.8 cm", 0, "1.6 cm"])",
-       "6:19: error: size along y is 0 m; it must be positive"},
+       "6:19: error: size along y is 0 m, no positive multiple of the spacing 0.002 m; the nearest right size: 0.002 "
+       "m"},
       {R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"])", R"(size = ["-0.8 cm", "0.8 cm", "1.6 cm"])",
-       "6:9: error: size along x is -0.008 m; it must be positive"},
+       "6:9: error: size along x is -0.008 m, no positive multiple of the spacing 0.002 m; the nearest right size: "
+       "0.002 m"},
       {R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"])", R"(size = ["0.8 cm", "0.8 cm", 1e15])",
-       "6:29: error: size along z is 1e+15 m, 5e+17 spacings of 0.002 m; at most 2147483647 are possible, take a "
-       "larger spacing"},
+       "6:29: error: the body would have more than 1e+15 nodes; use a larger spacing or a smaller body"},
       {R"(material = "rock"
 )",
        R"(material = "rok"
