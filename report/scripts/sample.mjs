@@ -119,7 +119,7 @@ export function makeSample() {
     title: "Cantilever (sample data)",
     subtitle: "Cube-III, shared springs, bending-exact, rotational kinematics; equilibrium",
     facts: [
-      { label: "Body", value: "18 × 78 × 18 mm" },
+      { label: "Body", value: CELLS.map((n) => n * SPACING), unit: "m" },
       { label: "Spacing", value: SPACING, unit: "m" },
       { label: "Cells", value: CELLS[0] * CELLS[1] * CELLS[2] },
       { label: "Nodes", value: nodes },
@@ -135,9 +135,10 @@ export function makeSample() {
     achieved: { columns: [{ name: "material" }, { name: "E asked", unit: "Pa" }, { name: "E achieved", unit: "Pa" }, { name: "deviation" },
         { name: "ν asked" }, { name: "ν achieved" }, { name: "deviation" }, { name: "Zener ratio" }],
       rows: [["rock", E, E * (1 + 2e-13), 2e-13, NU, NU, 0, 1], ["soft rock", 0.4 * E, 0.4 * E, 0, 0.3, 0.3 * (1 + 1e-13), 1e-13, 1]] },
-    probes: { columns: [{ name: "probe" }, { name: "quantity" }, { name: "x", unit: "m" }, { name: "y", unit: "m" }, { name: "z", unit: "m" }, { name: "magnitude", unit: "m" }],
-      rows: [["tip", "displacement", tip, 0, 0, tip], ["middle", "displacement", ...displacement([SIDE / 2, LENGTH / 2], LOAD), axis(LENGTH / 2, LOAD).w]] },
-    timing: { columns: [{ name: "part" }, { name: "time", unit: "s" }], rows: [["reading and building", 0.021], ["solving", 0.79], ["writing", 0.019]] },
+    probes: [{ title: "Displacement", columns: [{ name: "probe" }, { name: "where" }, ...["x", "y", "z"].map((name) => ({ name, unit: "m" }))],
+      rows: [["tip", "y-max, area-mean", tip, 0, 0], ["middle", "point", ...displacement([SIDE / 2, LENGTH / 2], LOAD)]] }],
+    timing: { columns: [{ name: "quantity" }, { name: "value" }], rows: [["iterations", { value: 8, unit: "1" }], ["reason", "tolerance reached"],
+      ["elastic energy", { value: (LOAD * tip) / 2, unit: "J" }], ["seconds", { value: 0.83, unit: "s" }], ["peak memory", { value: 34.5e6, unit: "B" }]] },
     history: history(),
     convergence: { residuals: [1, 0.21, 0.013, 9.1e-4, 5.2e-5, 3.3e-6, 2.4e-7, 1.5e-8, 9e-10], tolerance: 1e-8 },
     mesh: {

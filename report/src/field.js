@@ -1,22 +1,21 @@
 // A field of one sample: values per point or per cell, and the scalars one can look at.
 import { decode } from "./data.js";
 
+// Components of a symmetric tensor as the formulas below take them; the data may name them in another order.
+const TENSOR = ["xx", "yy", "zz", "xy", "yz", "xz"];
+
+// What can be computed from the components of one point or cell, by kind of field.
 const DERIVED = {
-  vector: [["magnitude", magnitude]],
-  "symmetric-tensor": [
-    ["mean", (v, i) => (v[i] + v[i + 1] + v[i + 2]) / 3],
-    ["greatest principal", (v, i) => principal(v, i)[0]],
-    ["least principal", (v, i) => principal(v, i)[2]],
-  ],
+  vector: { magnitude: (v) => Math.hypot(...v) },
+  "symmetric-tensor": {
+    mean: (t) => (t[0] + t[1] + t[2]) / 3,
+    "greatest principal": (t) => principal(t)[0],
+    "least principal": (t) => principal(t)[2],
+  },
+  stress: { "von Mises": vonMises },
 };
 
-function magnitude(v, i) {
-  return Math.hypot(v[i], v[i + 1], v[i + 2]);
-}
-
-// Components in the order xx, yy, zz, xy, yz, xz.
-function vonMises(v, i) {
-  const [xx, yy, zz, xy, yz, xz] = v.subarray(i, i + 6);
+function vonMises([xx, yy, zz, xy, yz, xz]) {
   const normal = (xx - yy) ** 2 + (yy - zz) ** 2 + (zz - xx) ** 2;
   return Math.sqrt(normal / 2 + 3 * (xy * xy + yz * yz + xz * xz));
 }
@@ -25,8 +24,7 @@ function vonMises(v, i) {
  * Eigenvalues of a symmetric 3x3 tensor, greatest first (trigonometric solution, O. K. Smith 1961,
  * doi:10.1145/355578.366316).
  */
-export function principal(v, i) {
-  const [xx, yy, zz, xy, yz, xz] = v.subarray(i, i + 6);
+export function principal([xx, yy, zz, xy, yz, xz]) {
   const mean = (xx + yy + zz) / 3;
   const [a, b, c] = [xx - mean, yy - mean, zz - mean];
   const p = Math.sqrt((a * a + b * b + c * c + 2 * (xy * xy + yz * yz + xz * xz)) / 6);
@@ -38,12 +36,13 @@ export function principal(v, i) {
   return [first, 3 * mean - first - third, third];
 }
 
-/** What can be shown of a field: [{id, label}], the first being the one to start with. */
+function derived(name, { kind }) {
+  return { ...(name === "stress" && kind === "symmetric-tensor" ? DERIVED.stress : {}), ...DERIVED[kind] };
+}
+
+/** Names of the scalars that can be shown of a field; the first is the one to start with. */
 export function choices(name, field) {
-  const derived = [...(DERIVED[field.kind] ?? [])];
-  if (field.kind === "symmetric-tensor" && name === "stress") derived.unshift(["von Mises", vonMises]);
-  const own = field.components ?? ["value"];
-  return [...derived.map(([id]) => id), ...own];
+  return [...Object.keys(derived(name, field)), ...(field.components ?? ["value"])];
 }
 
 /**
@@ -57,12 +56,18 @@ export function scalars(name, field, choice) {
   const values = decode(field.data);
   const components = field.components ?? ["value"];
   const width = components.length;
-  const own = components.indexOf(choice);
-  const derived = choice === "von Mises" ? vonMises : DERIVED[field.kind]?.find(([id]) => id === choice)?.[1];
-  if (own < 0 && !derived) throw new Error(`field "${name}" has no "${choice}"`);
   const result = new Float32Array(values.length / width);
-  for (let k = 0; k < result.length; ++k) result[k] = own >= 0 ? values[k * width + own] : derived(values, k * width);
-  return result;
+  const own = components.indexOf(choice);
+  if (own >= 0) return result.map((_, k) => values[k * width + own]);
+
+  const compute = derived(name, field)[choice];
+  if (!compute) throw new Error(`field "${name}" has no "${choice}"`);
+  const order = (field.kind === "symmetric-tensor" ? TENSOR : components).map((component) => components.indexOf(component));
+  const one = new Float64Array(width);
+  return result.map((_, k) => {
+    order.forEach((from, to) => (one[to] = values[k * width + from]));
+    return compute(one);
+  });
 }
 
 /** {min, max} of the finite values; {0, 0} when there are none. */

@@ -67,8 +67,12 @@ export function labelled(label, unit) {
   return text ? `${label} [${text}]` : label;
 }
 
-/** A value with its unit and a fitting prefix: "1.112 GPa". */
+/** A value with its unit and a fitting prefix: "1.112 GPa"; a list as "18 × 78 × 18 mm". */
 export function quantity(value, unit, digits = 6) {
+  if (Array.isArray(value)) {
+    const shown = prefixed(magnitudeOf(value), unit);
+    return `${value.map((one) => number(one / shown.factor, digits)).join(" × ")}\u00a0${unitText(shown.unit)}`;
+  }
   if (typeof value !== "number") return [String(value ?? ""), unitText(unit)].filter(Boolean).join(" ");
   const shown = prefixed(Math.abs(value), unit);
   return [number(value / shown.factor, digits), unitText(shown.unit)].filter(Boolean).join("\u00a0");

@@ -22,11 +22,11 @@ function build(data) {
     body?.node,
     section("tables", "Tables", ...tables),
     cards.length ? section("figures", "Figures", element("div", { class: "cards" }, ...cards.map(({ node }) => node))) : null,
-    section("probes", "Probes", table(data.probes)),
+    section("probes", "Probes", ...(data.probes ?? []).map(table)),
     past.node,
     solve.node,
     hasRows(data.materials, data.springs, data.achieved) ? model(data) : null,
-    section("timing", "Timing", table(data.timing)),
+    section("timing", "Run", table(data.timing)),
     files(data),
   ].filter(Boolean);
   const links = sections.map((node) => [node.id, node.querySelector("h2").textContent]);

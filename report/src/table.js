@@ -1,9 +1,9 @@
 // Tables: a fitting prefix for each unit, numbers to six digits, the full value as a tooltip.
 import { element } from "./dom.js";
-import { labelled, magnitudeOf, number, prefixed } from "./format.js";
+import { labelled, magnitudeOf, number, prefixed, quantity } from "./format.js";
 
 /**
- * @param {object} table {title?, columns: [{name, unit?}], rows: [[…]], note?}; cells are numbers, texts or null
+ * @param {object} table {title?, columns: [{name, unit?}], rows: [[…]], note?}; cells are numbers, texts, {value, unit} or null
  * @returns {HTMLElement|null} null when there is no row
  */
 export function table(block) {
@@ -25,6 +25,7 @@ export function table(block) {
 }
 
 function cell(value, { factor, numeric }) {
+  if (value?.unit) return element("td", { class: "number", title: String(value.value), dataset: { value: value.value }, text: quantity(value.value, value.unit) });
   if (typeof value !== "number") return element("td", { class: numeric ? "number" : null, text: value ?? "–" });
   return element("td", { class: "number", title: String(value), dataset: { value }, text: number(value / factor) });
 }

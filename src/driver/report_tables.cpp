@@ -1,0 +1,148 @@
+#include "driver/report_tables.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+
+#include "driver/calibrate.h"
+#include "driver/calibration_words.h"
+#include "mechanics/measure.h"
+#include "model/choices.h"
+
+namespace koshi::driver {
+namespace {
+
+using json = nlohmann::ordered_json;
+using Quantity = model::ProbeDefinition::Quantity;
+
+json column(const std::string& name) { return {{"name", name}}; }
+json column(const std::string& name, const std::string& unit) { return {{"name", name}, {"unit", unit}}; }
+
+json table(std::initializer_list<json> columns) { return {{"columns", columns}, {"rows", json::array()}}; }
+
+Calibrated calibrated(const model::Definition& definition, const material::Elastic& elastic) {
+  std::optional<Vec3> size;
+  if (definition.lattice.springs == material::Sharing::plain && definition.body.size != Vec3{})
+    size = definition.body.size;
+  return calibrate(definition.lattice, elastic, size);
+}
+
+// Largest relative deviation of what was achieved from what was asked for.
+double deviation(std::initializer_list<double> achieved, double asked) {
+  double largest = 0;
+  for (const double value : achieved)
+    largest = std::max(largest, std::abs(value - asked) / (asked != 0 ? std::abs(asked) : 1));
+  return largest;
+}
+
+void append_springs(json& rows, const std::string& material, lattice::CellType cell, const material::Springs& springs) {
+  constexpr std::array<const char*, lattice::family_count> bonds{"edges", "face diagonals", "body diagonals"};
+  for (std::size_t family = 0; family < static_cast<std::size_t>(lattice::families_of(cell)); ++family)
+    rows.push_back({material, bonds[family], springs.kn[family], springs.kt[family],
+                    family == 0 ? json(springs.kappa) : json(nullptr)});
+}
+
+void append_achieved(json& rows, const std::string& material, const Calibrated& found) {
+  if (!found.constants) return;
+  const double E = found.elastic.youngs_modulus, nu = found.elastic.poissons_ratio;
+  const Vec3& E_axis = found.constants->youngs_modulus;
+  const auto& nu_axis = found.constants->poissons_ratio;
+  rows.push_back({material, E, E_axis[0], E_axis[1], E_axis[2], deviation({E_axis[0], E_axis[1], E_axis[2]}, E), nu,
+                  nu_axis[0][1], nu_axis[1][2], nu_axis[2][0],
+                  deviation({nu_axis[0][1], nu_axis[1][2], nu_axis[2][0]}, nu), found.constants->zener_ratio});
+}
+
+std::string selection_text(const model::ProbeDefinition& probe) {
+  const model::Selection& selection = probe.selection;
+  if (selection.point) return fmt::format("point ({:.6g}) m", fmt::join(*selection.point, ", "));
+  const std::string nodes = selection.face ? model::choice_name(*selection.face) : "box";
+  return probe.reduce ? fmt::format("{}, {}", nodes, model::choice_name(*probe.reduce)) : nodes;
+}
+
+// SI unit of a number of the summary, which goes by the end of its key.
+std::string unit_of_key(const std::string& key) {
+  if (key.ends_with("seconds")) return "s";
+  if (key.ends_with("time_step") || key == "time") return "s";
+  if (key.ends_with("memory")) return "B";
+  if (key.ends_with("energy")) return "J";
+  return "1";
+}
+
+void append_numbers(json& rows, const json& part, const std::string& unit) {
+  for (const auto& [key, value] : part.items()) {
+    if (!value.is_number() && !value.is_string()) continue;
+    std::string label = key;
+    std::ranges::replace(label, '_', ' ');
+    const std::string own = unit.empty() ? unit_of_key(key) : unit;
+    rows.push_back({label, value.is_number() ? json{{"value", value}, {"unit", own}} : value});
+  }
+}
+
+}  // namespace
+
+std::string report_subtitle(const model::Definition& definition) {
+  const model::LatticeDefinition& lattice = definition.lattice;
+  return fmt::format("{}, {} springs, {} calibration, {} kinematics; {} analysis", lattice::name(lattice.cell),
+                     model::choice_name(lattice.springs), model::choice_name(definition.calibration()),
+                     model::choice_name(lattice.kinematics), model::choice_name(definition.analysis.type));
+}
+
+nlohmann::ordered_json materials_table(const model::Definition& definition) {
+  json block = table({column("material"), column("E", "Pa"), column("ν"), column("density", "kg/m^3")});
+  for (const auto& [name, elastic] : definition.materials)
+    block["rows"].push_back({name, elastic.youngs_modulus, elastic.poissons_ratio, elastic.density});
+  return block;
+}
+
+SpringTables spring_tables(const model::Definition& definition) {
+  SpringTables tables{
+      table({column("material"), column("bonds"), column("kn", "N/m"), column("kt", "N/m"), column("κ", "Pa")}),
+      table({column("material"), column("E asked", "Pa"), column("E_x", "Pa"), column("E_y", "Pa"), column("E_z", "Pa"),
+             column("deviation"), column("ν asked"), column("ν_xy"), column("ν_yz"), column("ν_zx"),
+             column("deviation"), column("Zener ratio")})};
+  for (const auto& [name, elastic] : definition.materials) {
+    const Calibrated found = calibrated(definition, elastic);
+    append_springs(tables.springs["rows"], name, definition.lattice.cell, found.springs);
+    append_achieved(tables.achieved["rows"], name, found);
+  }
+  const bool body = definition.lattice.springs == material::Sharing::plain;
+  tables.achieved["note"] =
+      body ? "Of the whole body: plain springs are stiffer at its surface." : "Of the lattice inside the bulk.";
+  return tables;
+}
+
+nlohmann::ordered_json probe_tables(const model::Definition& definition, const nlohmann::ordered_json& summary) {
+  json tables = json::array();
+  for (const Quantity quantity : {Quantity::displacement, Quantity::rotation, Quantity::velocity, Quantity::reaction,
+                                  Quantity::stress, Quantity::strain}) {
+    const std::string name = mechanics::name_of(quantity), unit = mechanics::unit_of(quantity);
+    json block = table({column("probe"), column("where")});
+    const auto components = mechanics::component_names(quantity);
+    for (const std::string& component : components) block["columns"].push_back(column(component, unit));
+    for (const model::ProbeDefinition& probe : definition.probes) {
+      if (probe.quantity != quantity) continue;
+      const json value = summary.value(json::json_pointer("/probes") / probe.name / name, json::array());
+      if (value.size() != components.size()) continue;
+      json row{probe.name, selection_text(probe)};
+      row.insert(row.end(), value.begin(), value.end());
+      block["rows"].push_back(row);
+    }
+    if (block["rows"].empty()) continue;
+    block["title"] = fmt::format("{}{}", static_cast<char>(std::toupper(name[0])), name.substr(1));
+    tables.push_back(block);
+  }
+  return tables;
+}
+
+nlohmann::ordered_json numbers_table(const nlohmann::ordered_json& summary) {
+  json block = table({column("quantity"), column("value")});
+  for (const char* part : {"analysis", "energy", "performance"})
+    if (summary.contains(part) && summary[part].is_object())
+      append_numbers(block["rows"], summary[part], std::string(part) == "energy" ? "J" : "");
+  return block;
+}
+
+}  // namespace koshi::driver

@@ -1,0 +1,57 @@
+// Reads back the fields that FieldWriter wrote (docs/formats/output.md).
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "koshi/vector3.h"
+
+class vtkImageData;
+
+namespace koshi::io {
+
+/// A sample named by `fields.pvd`.
+struct SampleFile {
+  double time = 0;  ///< [s]
+  std::filesystem::path path;
+};
+
+/// Samples of an output directory in the order of the collection; none without `fields.pvd`. Throws InputError when
+/// that file cannot be read as a collection.
+std::vector<SampleFile> list_samples(const std::filesystem::path& directory);
+
+/// A field of a sample, without its values.
+struct FieldInfo {
+  std::string name;
+  bool on_cells = false;
+  std::vector<std::string> components;  ///< names; VTK's own ("0", "1", ...) where the file has none
+};
+
+/// One sample, whatever number of ranks wrote it. Points and cells have the indices of the whole grid, x fastest.
+class FieldReader {
+ public:
+  /// Reads a `.vti` or `.pvti` file. Throws InputError when it cannot be read.
+  explicit FieldReader(const std::filesystem::path& path);
+
+  Int3 cells() const;
+  Vec3 origin() const;  ///< lower corner [m]
+  double spacing() const;
+  std::vector<FieldInfo> fields() const;  ///< all but the material
+
+  /// Material index of every cell, 0 = empty.
+  std::span<const std::uint8_t> material() const;
+
+  /// Values of a field at points (or cells, for a field on cells): all components of the first, then of the second ...
+  /// Throws InputError when the sample has no such field.
+  std::vector<float> gather(const FieldInfo& field, std::span<const std::int64_t> indices) const;
+
+ private:
+  std::filesystem::path path_;
+  std::shared_ptr<vtkImageData> image_;
+};
+
+}  // namespace koshi::io
