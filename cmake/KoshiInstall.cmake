@@ -7,6 +7,18 @@ install(TARGETS koshi_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/koshi TYPE INCLUDE)
 install(FILES README.md LICENSE CITATION.cff CHANGELOG.md TYPE DOC)
 
+# Man page, from the program's own help, and completion.
+install(FILES apps/koshi/koshi.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME koshi)
+find_program(HELP2MAN help2man)
+if(HELP2MAN)
+  set(page ${PROJECT_BINARY_DIR}/koshi.1.gz)
+  add_custom_command(OUTPUT ${page}
+    COMMAND ${PROJECT_SOURCE_DIR}/scripts/man_page.sh $<TARGET_FILE:koshi_app> | gzip -9n > ${page}
+    DEPENDS koshi_app scripts/man_page.sh COMMENT "Making the man page" VERBATIM)
+  add_custom_target(koshi_man ALL DEPENDS ${page})
+  install(FILES ${page} DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
+endif()
+
 # find_package(koshi) gives koshi::koshi and finds the libraries behind it.
 install(EXPORT koshiTargets NAMESPACE koshi:: DESTINATION ${KOSHI_CMAKE_DIR})
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/koshiConfigVersion.cmake COMPATIBILITY SameMinorVersion)

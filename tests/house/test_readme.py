@@ -1,0 +1,19 @@
+"""The case shown in the README is valid. Usage: test_readme.py PROGRAM"""
+
+import re
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+readme = (Path(__file__).parents[2] / "README.md").read_text()
+cases = re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
+assert len(cases) == 1, f"{len(cases)} cases in the README"
+
+with tempfile.TemporaryDirectory() as folder:
+    case = Path(folder, "beam.toml")
+    case.write_text(cases[0])
+    result = subprocess.run([sys.argv[1], "check", case], capture_output=True, text=True)
+    assert result.returncode == 0, result.stderr
+    # 18 x 78 x 18 mm at 2 mm
+    assert "9 x 39 x 9" in result.stdout, result.stdout
