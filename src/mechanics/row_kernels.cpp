@@ -142,60 +142,59 @@ constexpr int direction(int axis) {
   return s[slot][axis];
 }
 
-// `width` nodes at once.
-template <class T>
-using Vector __attribute__((vector_size(64))) = T;
-template <class T>
-using Integer = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
-template <class T>
-using Index __attribute__((vector_size(64))) = Integer<T>;
-template <class T>
-using Bytes __attribute__((vector_size(64 / sizeof(T)))) = std::uint8_t;
+// Several nodes at once; short runs of nodes, as at the ends of rows, take short vectors.
+template <class T, int lanes>
+struct Simd {
+  using Integer = std::conditional_t<sizeof(T) == 8, std::int64_t, std::int32_t>;
+  using Vector __attribute__((vector_size(lanes * sizeof(T)))) = T;
+  using Index __attribute__((vector_size(lanes * sizeof(T)))) = Integer;
+  using Bytes __attribute__((vector_size(lanes))) = std::uint8_t;
 
-template <class T>
-inline __attribute__((always_inline)) Vector<T> load(const T* p) {
-  Vector<T> v;
-  __builtin_memcpy(&v, p, sizeof v);
-  return v;
-}
-
-// Stiffness of the bonds' classes. A table of at most `width` classes (a body of one material has 8) sits in a
-// register.
-template <class T, bool small>
-inline __attribute__((always_inline)) Vector<T> look_up(const T* table, const std::uint8_t* bond) {
-  Vector<T> v;
-  if constexpr (small) {
-    Bytes<T> bytes;
-    __builtin_memcpy(&bytes, bond, sizeof bytes);
-    v = __builtin_shuffle(load(table), __builtin_convertvector(bytes, Index<T>));
-  } else {
-    for (std::int64_t i = 0; i < width<T>; ++i) v[i] = table[bond[i]];
+  static inline __attribute__((always_inline)) Vector load(const T* p) {
+    Vector v;
+    __builtin_memcpy(&v, p, sizeof v);
+    return v;
   }
-  return v;
-}
+
+  // Entries of a table. One of at most `lanes` classes (a body of one material has up to 8) sits in a register.
+  template <bool small>
+  static inline __attribute__((always_inline)) Vector look_up(const T* table, const std::uint8_t* bond) {
+    Vector v;
+    if constexpr (small) {
+      Bytes bytes;
+      __builtin_memcpy(&bytes, bond, sizeof bytes);
+      v = __builtin_shuffle(load(table), __builtin_convertvector(bytes, Index));
+    } else {
+      for (int i = 0; i < lanes; ++i) v[i] = table[bond[i]];
+    }
+    return v;
+  }
+};
 
 // Adds the bonds of one direction, forward (sign +1) or backward, to the nodes from `begin` on. With D = -d s the
 // relative displacement is r = u1 - u2 + d/2 (w1 + w2) x s; the force on the node is -F, its moment -d/2 s x F.
-template <class T, bool rotational, bool small, int slot, int sign>
+template <class T, int lanes, bool rotational, bool small, int slot, int sign>
 inline __attribute__((always_inline)) void add_bond(const Tables<T>& tables, const Row<T>& row, std::int64_t begin,
-                                                    Vector<T> (&F)[6]) {
+                                                    typename Simd<T, lanes>::Vector (&F)[6]) {
+  using S = Simd<T, lanes>;
+  using Vector = typename S::Vector;
   constexpr int ox = sign * direction<slot>(0), oy = sign * direction<slot>(1), oz = sign * direction<slot>(2);
   constexpr T sx = ox, sy = oy, sz = oz;
   const std::ptrdiff_t to = ox + row.pitch * oy + row.plane * oz;
   const std::uint8_t* const bond = row.bond[slot] + begin + (sign > 0 ? 0 : to);
-  const Vector<T> kt = look_up<T, small>(tables.kt, bond), kb = look_up<T, small>(tables.kb, bond);
-  const auto difference = [&](int c) { return load(row.u[c] + begin) - load(row.u[c] + begin + to); };
+  const Vector kt = S::template look_up<small>(tables.kt, bond), kb = S::template look_up<small>(tables.kb, bond);
+  const auto difference = [&](int c) { return S::load(row.u[c] + begin) - S::load(row.u[c] + begin + to); };
   const T h = tables.half_d;
-  Vector<T> rx = difference(0), ry = difference(1), rz = difference(2);
+  Vector rx = difference(0), ry = difference(1), rz = difference(2);
   if constexpr (rotational) {
-    const auto mean = [&](int c) { return h * (load(row.u[c] + begin) + load(row.u[c] + begin + to)); };
-    const Vector<T> wx = mean(3), wy = mean(4), wz = mean(5);
+    const auto mean = [&](int c) { return h * (S::load(row.u[c] + begin) + S::load(row.u[c] + begin + to)); };
+    const Vector wx = mean(3), wy = mean(4), wz = mean(5);
     rx += wy * sz - wz * sy;
     ry += wz * sx - wx * sz;
     rz += wx * sy - wy * sx;
   }
-  const Vector<T> along = kb * (rx * sx + ry * sy + rz * sz);
-  const Vector<T> fx = kt * rx + along * sx, fy = kt * ry + along * sy, fz = kt * rz + along * sz;
+  const Vector along = kb * (rx * sx + ry * sy + rz * sz);
+  const Vector fx = kt * rx + along * sx, fy = kt * ry + along * sy, fz = kt * rz + along * sz;
   F[0] -= fx;
   F[1] -= fy;
   F[2] -= fz;
@@ -206,31 +205,33 @@ inline __attribute__((always_inline)) void add_bond(const Tables<T>& tables, con
   }
 }
 
-template <class T, bool rotational, bool small, int slot = 0>
+template <class T, int lanes, bool rotational, bool small, int slot = 0>
 inline __attribute__((always_inline)) void add_bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t begin,
-                                                     Vector<T> (&F)[6]) {
+                                                     typename Simd<T, lanes>::Vector (&F)[6]) {
   if constexpr (slot < 13) {
-    add_bond<T, rotational, small, slot, 1>(tables, row, begin, F);
-    add_bond<T, rotational, small, slot, -1>(tables, row, begin, F);
-    add_bonds<T, rotational, small, slot + 1>(tables, row, begin, F);
+    add_bond<T, lanes, rotational, small, slot, 1>(tables, row, begin, F);
+    add_bond<T, lanes, rotational, small, slot, -1>(tables, row, begin, F);
+    add_bonds<T, lanes, rotational, small, slot + 1>(tables, row, begin, F);
   }
 }
 
-template <class T, bool rotational, bool small>
+template <class T, int lanes, bool rotational, bool small>
 void bonds_with(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, T* const force[6]) {
-  for (std::int64_t begin = first; begin < last; begin += width<T>) {
-    Vector<T> F[6] = {};
-    add_bonds<T, rotational, small>(tables, row, begin, F);
+  for (std::int64_t begin = first; begin < last; begin += lanes) {
+    typename Simd<T, lanes>::Vector F[6] = {};
+    add_bonds<T, lanes, rotational, small>(tables, row, begin, F);
     for (int c = 0; c < (rotational ? 6 : 3); ++c) __builtin_memcpy(force[c] + begin, &F[c], sizeof F[c]);
   }
 }
 
 template <class T, bool rotational>
 void bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, T* const force[6]) {
-  if (tables.classes <= width<T>)
-    bonds_with<T, rotational, true>(tables, row, first, last, force);
+  if (last - first <= 2)
+    bonds_with<T, 2, rotational, false>(tables, row, first, last, force);
+  else if (tables.classes <= width<T>)
+    bonds_with<T, width<T>, rotational, true>(tables, row, first, last, force);
   else
-    bonds_with<T, rotational, false>(tables, row, first, last, force);
+    bonds_with<T, width<T>, rotational, false>(tables, row, first, last, force);
 }
 
 // --- Cells

@@ -60,7 +60,10 @@ void for_each_bond(const SpringLattice& body, F&& f) {
 // The classes that occur on any rank, in ascending order (collective).
 std::set<ClassKey> all_classes(const SpringLattice& body) {
   std::set<ClassKey> own;
-  for_each_bond(body, [&](int, std::int64_t, const ClassKey& key) { own.insert(key); });
+  ClassKey last{};
+  for_each_bond(body, [&](int, std::int64_t, const ClassKey& key) {
+    if (key != last) own.insert(last = key);
+  });
   std::string bytes;
   for (const ClassKey& key : own) bytes.append(key.begin(), key.end());
   const Communicator& communicator = body.halo->communicator();
@@ -162,9 +165,16 @@ void make_bonds(SpringLattice& body, material::Sharing sharing, material::Kinema
   }
 
   body.bond = lattice::Field<std::uint8_t>(body.layout, lattice::slot_count);
+  ClassKey last{};
+  std::uint8_t last_number = 0;
   for_each_bond(body, [&](int slot, std::int64_t n, const ClassKey& key) {
-    const auto found = number.find(key);
-    if (found != number.end()) body.bond.component(slot)[n] = found->second;
+    // Neighbours mostly have the same class.
+    if (key != last) {
+      last = key;
+      const auto found = number.find(key);
+      last_number = found == number.end() ? std::uint8_t{0} : found->second;
+    }
+    body.bond.component(slot)[n] = last_number;
   });
   body.halo->exchange(body.bond);
 }
