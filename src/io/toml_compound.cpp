@@ -44,9 +44,8 @@ Form<std::array<T, 3>> triple() {
           },
       .write =
           [](const std::array<T, 3>& value, const Spec& spec) {
-            std::vector<std::string> texts;
-            for (const T& element : value) texts.push_back(form(Tag<T>{}).write(element, spec));
-            return list_of(texts);
+            const auto write = form(Tag<T>{}).write;
+            return list_of({write(value[0], spec), write(value[1], spec), write(value[2], spec)});
           },
       .expected = [](const Spec& spec) { return "a list of three (x, y, z), each " + form(Tag<T>{}).expected(spec); },
       .schema =

@@ -35,9 +35,10 @@ struct Key : KeyInfo {
   bool applies_to(const S& s) const { return !applies || applies(s); }
 
   /// Restricts the key to some states of the struct.
-  Key only_for(std::string text, std::vector<std::string> keys, std::function<bool(const S&)> predicate) && {
-    condition = std::move(text);
-    deciding = std::move(keys);
+  Key only_for(const std::string& text, const std::vector<std::string>& keys,
+               std::function<bool(const S&)> predicate) && {
+    condition = text;
+    deciding = keys;
     applies = std::move(predicate);
     return std::move(*this);
   }
@@ -94,6 +95,7 @@ concept HasKeys = requires {
 template <class S>
 std::vector<std::string> names_of(const std::vector<Key<S>>& keys) {
   std::vector<std::string> names;
+  names.reserve(keys.size());
   for (const auto& key : keys) names.push_back(key.spec.name);
   return names;
 }

@@ -89,11 +89,12 @@ const std::vector<Key<RegionDefinition>>& keys_of(Tag<RegionDefinition>) {
   using Shape = D::Shape;
   // A key that some shapes have and then need.
   const auto of = [](const std::vector<Shape>& shapes, Key<D> key) {
-    std::vector<std::string> names;
-    for (const Shape shape : shapes) names.push_back(toml_text(choice_name(shape)));
-    return std::move(key).only_for(
-        fmt::format("shape {}", fmt::join(names, " or ")), {"shape"},
-        [shapes](const D& region) { return std::find(shapes.begin(), shapes.end(), region.shape) != shapes.end(); });
+    std::string condition;
+    for (const Shape shape : shapes)
+      condition += (condition.empty() ? "shape " : " or ") + toml_text(choice_name(shape));
+    return std::move(key).only_for(condition, {"shape"}, [shapes](const D& region) {
+      return std::find(shapes.begin(), shapes.end(), region.shape) != shapes.end();
+    });
   };
   const About length{.dimension = Dimension::length, .required = true};
   static const std::vector<Key<D>> keys{

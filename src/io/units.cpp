@@ -83,7 +83,8 @@ bool is_plain_unit(std::string_view text) {
     const bool other_alphabet = static_cast<unsigned char>(c) >= 0x80;  // µ, °, ·
     const bool exponent = is_digit(c) && (is_letter(before) || is_digit(before) || before == '^' || before == '-' ||
                                           (before == '*' && i >= 2 && text[i - 2] == '*'));
-    if (!is_letter(c) && !other_alphabet && !exponent && std::string_view(" */^.-()%").find(c) == text.npos)
+    if (!is_letter(c) && !other_alphabet && !exponent &&
+        std::string_view(" */^.-()%").find(c) == std::string_view::npos)
       return false;
   }
   return true;

@@ -65,22 +65,24 @@ void check_boundary(const Checker& check, const std::string& path, const Boundar
                                               prescribed_by[c], key));
     prescribed_by[c] = key;
   };
+  const auto finite = [&](const std::string& at, double value) { check.finite(fmt::format("{}.{}", path, at), value); };
   for (std::size_t c = 0; c < 6; ++c) {
-    const std::string component(component_names[c]);
     if (boundary.fix[c]) prescribe(c, "fix", "fix");
     if (boundary.displacement[c]) {
-      prescribe(c, "displacement", "displacement." + component);
-      check.finite(path + ".displacement." + component, *boundary.displacement[c]);
+      const std::string at = fmt::format("displacement.{}", component_names[c]);
+      prescribe(c, "displacement", at);
+      finite(at, *boundary.displacement[c]);
     }
     if (boundary.velocity[c]) {
-      prescribe(c, "velocity", "velocity." + component);
-      check.finite(path + ".velocity." + component, *boundary.velocity[c]);
+      const std::string at = fmt::format("velocity.{}", component_names[c]);
+      prescribe(c, "velocity", at);
+      finite(at, *boundary.velocity[c]);
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!boundary.twist[axis]) continue;
     const std::string at = fmt::format("twist.{}", component_names[axis]);
-    check.finite(path + "." + at, *boundary.twist[axis]);
+    finite(at, *boundary.twist[axis]);
     for (const std::size_t c : {(axis + 1) % 3, (axis + 2) % 3, axis + 3})
       prescribe(c, fmt::format("twist about {}", component_names[axis]), at);
   }

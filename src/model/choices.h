@@ -108,6 +108,7 @@ std::string choice_name(E value) {
 template <class E>
 std::vector<std::string> choice_names() {
   std::vector<std::string> names;
+  names.reserve(choices<E>.size());
   for (const auto& choice : choices<E>) names.emplace_back(choice.name);
   return names;
 }
