@@ -20,6 +20,11 @@ model::Definition read_case(const std::filesystem::path& file, std::span<const s
 model::Definition read_case_text(std::string_view text, const std::string& file_name,
                                  std::span<const std::string> overrides = {});
 
+/// The definition with the contents of the files it names: cell materials and size from body.image, cells inside each
+/// surface. Errors: InputError at the key for a file that is missing, of the wrong form or size, or that has values
+/// without a material; for a surface that is not closed.
+model::Definition load_files(model::Definition definition);
+
 /// The whole input with every default written out, in SI units; reading it gives an equal definition. Relative file
 /// names become absolute, so that it may be read from another directory.
 std::string resolved_toml(const model::Definition& definition);

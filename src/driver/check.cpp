@@ -46,13 +46,13 @@ std::string explicit_part(const model::Model& model) {
 }  // namespace
 
 std::string check(const model::Definition& definition, const Communicator& communicator) {
-  const model::Model model = model::make_model(definition, communicator);
+  const model::Model model = load_model(definition, communicator);
   std::string text = "# resolved input\n" + io::resolved_toml(definition) + "\n# what it means\n";
   const Int3& cells = model.lattice.grid.cells;
   text += fmt::format("cells         {} x {} x {}, {} solid\nnodes         {}, {} unknowns\n", cells[0], cells[1],
                       cells[2], model.cell_count, model.node_count, model.node_count * model.components());
   text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB\n", model.motion_count,
-                      model::predicted_memory(definition) / 1e9);
+                      model::predicted_memory(model.definition) / 1e9);
   if (definition.analysis.type != model::AnalysisDefinition::Type::statics) text += explicit_part(model);
   for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
     text += fmt::format("\n# material {}\n", definition.materials[m - 1].name) +

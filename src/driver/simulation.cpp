@@ -6,8 +6,10 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/collective.h"
 #include "driver/schedule.h"
 #include "koshi/dynamics.h"
+#include "koshi/input.h"
 
 namespace koshi::driver {
 
@@ -24,8 +26,15 @@ bool wants_orientation(const model::Definition& definition) {
 
 }  // namespace
 
+model::Model load_model(const model::Definition& definition, const Communicator& communicator) {
+  // A file may be missing on one machine only.
+  std::optional<model::Definition> loaded;
+  collectively(communicator, [&] { loaded = io::load_files(definition); });
+  return model::make_model(*loaded, communicator);
+}
+
 Simulation::Simulation(const model::Definition& definition, const Communicator& communicator)
-    : model_(std::make_unique<const model::Model>(model::make_model(definition, communicator))),
+    : model_(std::make_unique<const model::Model>(load_model(definition, communicator))),
       kernel_(std::make_unique<mechanics::ForceKernel<double>>(model_->lattice)),
       meter_(std::make_unique<mechanics::Meter>(*model_, *kernel_)),
       state_(std::make_unique<model::State>(*model_)) {

@@ -37,6 +37,9 @@ struct Observer {
   std::function<bool(model::State&)> poll;
 };
 
+/// The model of a definition, files that it names read first (collective).
+model::Model load_model(const model::Definition& definition, const Communicator& communicator);
+
 /// A model with its state, ready to run.
 class Simulation {
  public:

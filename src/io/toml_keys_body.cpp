@@ -64,7 +64,7 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
       key<D>("material", &D::material, "Material of the cells, or \"void\".", {.required = true})
           .only_for("a body without an image", {"image"}, plain),
       key<D>("periodic", &D::periodic, "Opposite faces across x, y, z are joined."),
-      key<D>("image", &D::image, "File of cell values (.npy, .vti, .mha, .nrrd), one value a cell."),
+      key<D>("image", &D::image, "File of cell values (.npy, .vti, .mha, .mhd, .nrrd), one value a cell."),
       key<D>("materials", &D::image_materials, "Material, or \"void\", of each value in the image.", {.required = true})
           .only_for("a body with an image", {"image"}, imaged),
   };

@@ -94,7 +94,7 @@ void check_box_of_cells(const Checker& check) {
     if (body.cells.empty()) check_material_name(check, "body.material", body.material);
     return;
   }
-  const std::vector<std::string> formats{".npy", ".vti", ".mha", ".nrrd"};
+  const std::vector<std::string> formats{".npy", ".vti", ".mha", ".mhd", ".nrrd"};
   if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return body.image.ends_with(suffix); }))
     check.fail("body.image",
                fmt::format("the image \"{}\" is in no known format; known: {}", body.image, quoted_list(formats)));

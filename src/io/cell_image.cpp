@@ -1,0 +1,147 @@
+#include "io/cell_image.h"
+
+#include <fmt/format.h>
+#include <vtkCellData.h>
+#include <vtkDataArray.h>
+#include <vtkImageData.h>
+#include <vtkMetaImageReader.h>
+#include <vtkNew.h>
+#include <vtkNrrdReader.h>
+#include <vtkPointData.h>
+#include <vtkXMLImageDataReader.h>
+
+#include <map>
+#include <optional>
+#include <set>
+
+#include "io/npy.h"
+#include "io/vtk_errors.h"
+#include "model/check.h"
+
+namespace koshi::io {
+namespace {
+
+template <class Reader>
+vtkSmartPointer<vtkImageData> read_with(const std::filesystem::path& file, const char* format) {
+  vtkNew<Reader> reader;
+  const VtkErrors errors;
+  if (!reader->CanReadFile(file.c_str())) throw InputError(fmt::format("is not {}", format));
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  if (!errors.first().empty()) throw InputError(fmt::format("cannot be read as {}: {}", format, errors.first()));
+  if (reader->GetErrorCode() != 0) throw InputError(fmt::format("cannot be read as {}; it may be cut short", format));
+  return reader->GetOutput();
+}
+
+CellImage image_of(vtkDataArray* values, const Int3& cells) {
+  if (values == nullptr || values->GetNumberOfTuples() != cells[0] * cells[1] * cells[2])
+    throw InputError("holds no values");
+  if (values->GetNumberOfComponents() != 1)
+    throw InputError(fmt::format("holds {} values a cell; expected one", values->GetNumberOfComponents()));
+  if (values->GetDataType() == VTK_FLOAT || values->GetDataType() == VTK_DOUBLE)
+    throw InputError(fmt::format("holds values of the type {}, not whole numbers; convert it to unsigned char",
+                                 values->GetDataTypeAsString()));
+  return {cells, {1, cells[0], cells[0] * cells[1]}, [kept = vtkSmartPointer(values)](std::int64_t i) {
+            return kept->GetComponent(i, 0);
+          }};
+}
+
+CellImage image_of_points(vtkImageData* image) {
+  const int* points = image->GetDimensions();
+  vtkDataArray* values = image->GetPointData()->GetScalars();
+  const int components = values == nullptr ? 1 : values->GetNumberOfComponents();
+  // VTK takes a short first axis of an NRRD file for components; in memory they lie like an axis.
+  if (components > 1 && points[2] == 1) {
+    vtkSmartPointer<vtkDataArray> axis = vtk::TakeSmartPointer(values->NewInstance());
+    axis->SetVoidArray(values->GetVoidPointer(0), values->GetNumberOfValues(), 1);
+    CellImage folded = image_of(axis, {components, points[0], points[1]});
+    return {folded.cells, folded.stride,
+            [kept = vtkSmartPointer(image), value = folded.value](std::int64_t i) { return value(i); }};
+  }
+  return image_of(image->GetPointData()->GetScalars(), {points[0], points[1], points[2]});
+}
+
+// A file for ParaView may carry several arrays: "material", as Koshi writes it, or the only one.
+CellImage image_of_cells(vtkImageData* image) {
+  vtkCellData* data = image->GetCellData();
+  if (data->GetNumberOfArrays() == 0 && image->GetPointData()->GetNumberOfArrays() != 0)
+    throw InputError(
+        "holds values on points, but a cell needs one value; make them cell data (ParaView: \"Point Data to Cell "
+        "Data\", with categorical data on)");
+  vtkDataArray* values = data->GetArray("material");
+  if (values == nullptr && data->GetNumberOfArrays() == 1) values = data->GetArray(0);
+  if (values == nullptr && data->GetNumberOfArrays() > 1)
+    throw InputError(
+        fmt::format("holds {} arrays on cells; call the right one \"material\"", data->GetNumberOfArrays()));
+  Int3 cells;
+  for (int a = 0; a < 3; ++a) cells[a] = std::max(image->GetDimensions()[a] - 1, 1);
+  return image_of(values, cells);
+}
+
+std::string list_of(const std::set<double>& values) {
+  constexpr std::size_t most = 20;
+  std::string text;
+  for (const double value : values) text += fmt::format("{}{:.0f}", text.empty() ? "" : ", ", value);
+  return text + (values.size() > most ? ", ..." : "");
+}
+
+}  // namespace
+
+CellImage read_cell_image(const std::filesystem::path& file) {
+  const std::string format = file.extension().string();
+  if (format == ".vti") return image_of_cells(read_with<vtkXMLImageDataReader>(file, "a VTK image (.vti)"));
+  if (format == ".nrrd") return image_of_points(read_with<vtkNrrdReader>(file, "an NRRD image"));
+  if (format == ".mha" || format == ".mhd") return image_of_points(read_with<vtkMetaImageReader>(file, "a MetaImage"));
+  const NpyArray array = read_npy(file);
+  CellImage image = image_of_points(array.image);
+  if (array.fortran_order) {
+    std::swap(image.cells[0], image.cells[2]);
+    std::swap(image.stride[0], image.stride[2]);
+  }
+  return image;
+}
+
+void set_cells(const CellImage& image, model::Definition& definition) {
+  const model::Checker check(definition);
+  model::BodyDefinition& body = definition.body;
+
+  // The image decides the size, or fits the size given.
+  const double d = definition.lattice.spacing;
+  const Vec3 size{d * static_cast<double>(image.cells[0]), d * static_cast<double>(image.cells[1]),
+                  d * static_cast<double>(image.cells[2])};
+  if (body.size == Vec3{}) body.size = size;
+  if (norm(body.size - size) > 1e-6 * d)
+    check.fail(
+        "body.size",
+        fmt::format("the image has {} x {} x {} cells and hence the size {:.9g} x {:.9g} x {:.9g} m, but the size "
+                    "is {:.9g} x {:.9g} x {:.9g} m; leave size out",
+                    image.cells[0], image.cells[1], image.cells[2], size[0], size[1], size[2], body.size[0],
+                    body.size[1], body.size[2]));
+
+  std::map<double, std::uint8_t> material_of;
+  for (const auto& [value, name] : body.image_materials) {
+    std::size_t index = 0;
+    while (index < definition.materials.size() && definition.materials[index].name != name) ++index;
+    material_of[value] = name == "void" ? 0 : static_cast<std::uint8_t>(index + 1);
+  }
+
+  // Neighbours mostly have the same value, so the last one found is tried first.
+  std::set<double> unknown;
+  auto last = material_of.end();
+  body.cells.clear();
+  body.cells.reserve(static_cast<std::size_t>(image.cells[0] * image.cells[1] * image.cells[2]));
+  for (std::int64_t k = 0; k < image.cells[2]; ++k)
+    for (std::int64_t j = 0; j < image.cells[1]; ++j)
+      for (std::int64_t i = 0; i < image.cells[0]; ++i) {
+        const double value = image.value(i * image.stride[0] + j * image.stride[1] + k * image.stride[2]);
+        if (last == material_of.end() || last->first != value) last = material_of.find(value);
+        if (last == material_of.end() && unknown.size() < 21) unknown.insert(value);
+        body.cells.push_back(last == material_of.end() ? 0 : last->second);
+      }
+  if (!unknown.empty())
+    check.fail("body.materials",
+               fmt::format("the image also has the value{} {}; name a material, or \"void\", for each",
+                           unknown.size() == 1 ? "" : "s", list_of(unknown)));
+}
+
+}  // namespace koshi::io

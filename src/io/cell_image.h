@@ -1,0 +1,27 @@
+// Bodies given cell by cell: values in an image and the materials they stand for.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+
+#include "koshi/definition.h"
+
+namespace koshi::io {
+
+/// One value per cell, where it lies: that of cell (i, j, k) is value(i stride[0] + j stride[1] + k stride[2]).
+struct CellImage {
+  Int3 cells{};
+  Int3 stride{};
+  std::function<double(std::int64_t)> value;
+};
+
+/// Reads .npy (whole numbers or bool, axes [z][y][x]), .vti (values on cells), .mha, .mhd or .nrrd (values of voxels).
+/// Spacing and origin in the file do not count. Errors: InputError without a place.
+CellImage read_cell_image(const std::filesystem::path& file);
+
+/// Sets body.cells by body.image_materials, and body.size if it is unset. Errors: InputError at the image, its
+/// materials or the size.
+void set_cells(const CellImage& image, model::Definition& definition);
+
+}  // namespace koshi::io

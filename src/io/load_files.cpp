@@ -1,0 +1,51 @@
+// The files an input names: images of cells and surfaces.
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+
+#include "io/cell_image.h"
+#include "io/surface.h"
+#include "koshi/input.h"
+#include "model/check.h"
+#include "model/regions.h"
+
+namespace koshi::io {
+namespace {
+
+// Runs `read` on a file of the input; what is wrong with it is an error at the key that names it.
+template <class F>
+auto load(const model::Definition& definition, const std::string& key, const std::string& name, F&& read) {
+  const auto path = std::filesystem::path(definition.directory) / name;
+  const auto fail = [&](const std::string& message) {
+    model::Checker(definition).fail(key, fmt::format("the file \"{}\" {}", path.lexically_normal().string(), message));
+  };
+  errno = 0;
+  if (!std::ifstream(path)) fail(fmt::format("cannot be opened ({})", std::strerror(errno)));
+  if (std::filesystem::is_directory(path)) fail("is a folder");
+  try {
+    return read(path);
+  } catch (const InputError& error) {
+    fail(error.message());
+    throw;
+  }
+}
+
+}  // namespace
+
+model::Definition load_files(model::Definition definition) {
+  model::check(definition);
+  if (const std::string& image = definition.body.image; !image.empty())
+    set_cells(load(definition, "body.image", image, read_cell_image), definition);
+  for (std::size_t r = 0; r < definition.regions.size(); ++r) {
+    model::RegionDefinition& region = definition.regions[r];
+    if (region.shape != model::RegionDefinition::Shape::stl) continue;
+    const lattice::Grid grid = model::make_grid(definition);
+    region.inside = load(definition, fmt::format("region[{}].file", r), region.file,
+                         [&](const auto& path) { return cells_inside(path, region.scale, grid); });
+  }
+  return definition;
+}
+
+}  // namespace koshi::io

@@ -1,0 +1,17 @@
+// Closed surfaces as regions of cells.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "koshi/grid.h"
+
+namespace koshi::io {
+
+/// 1 for each cell, x fastest, whose centre lies inside the closed surface of an STL file; `scale` [m] is the length of
+/// the file's unit. Errors: InputError without a place for a file that cannot be read, a surface with holes or loose
+/// edges, a surface that holds no centre.
+std::vector<std::uint8_t> cells_inside(const std::filesystem::path& file, double scale, const lattice::Grid& grid);
+
+}  // namespace koshi::io
