@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 #include <vtkCellData.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
@@ -16,10 +15,10 @@
 #include <vtkXMLPImageDataReader.h>
 #include <vtkXMLUtilities.h>
 
-#include <csignal>
 #include <fstream>
 
 #include "io/files.h"
+#include "support/file_size_limit.h"
 #include "support/first_ranks.h"
 #include "support/temporary_directory.h"
 
@@ -258,14 +257,11 @@ TEST_F(FieldFilesTest, FailureOnOneRankIsAnErrorOnAllAndKeepsEarlierSamples) {
   FieldWriter writer(run.model, directory.path(), std::nullopt);
   run.write(writer, 0.0);
   // Files of the last rank may not grow beyond a kilobyte: writing fails as on a full disk.
-  rlimit limit{};
-  getrlimit(RLIMIT_FSIZE, &limit);
-  std::signal(SIGXFSZ, SIG_IGN);
-  const rlimit small{1000, limit.rlim_max};
-  if (world.rank() == world.size() - 1) setrlimit(RLIMIT_FSIZE, &small);
+  std::optional<test::FileSizeLimit> limit;
+  if (world.rank() == world.size() - 1) limit.emplace(1000);
   EXPECT_THAT([&] { run.write(writer, 0.1); },
               ThrowsMessage<RunError>(AllOf(HasSubstr("cannot write"), HasSubstr("File too large"))));
-  setrlimit(RLIMIT_FSIZE, &limit);
+  limit.reset();
   if (world.is_root()) {
     EXPECT_EQ(times(), std::vector{0.0});
     EXPECT_EQ(files_in(directory / "fields").size(), 5u) << "what was begun is removed";
@@ -318,21 +314,16 @@ TEST(ImageFile, EveryShortageOfSpaceIsNoticed) {
   FieldWriter writer(run.model, directory.path(), std::nullopt);
   run.write(writer, 0.0);
   const auto size = fs::file_size(directory / "fields/sample_000000.vti");
-  rlimit limit{};
-  getrlimit(RLIMIT_FSIZE, &limit);
-  std::signal(SIGXFSZ, SIG_IGN);
   int failures = 0, tries = 0;
   for (std::uintmax_t room = 0; room < size; room += 1 + size / 64, ++tries) {
     FieldWriter next(run.model, directory / "next", std::nullopt);
     fs::create_directories(directory / "next/fields");
-    const rlimit small{room, limit.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
+    const test::FileSizeLimit limit(room);
     try {
       run.write(next, 0.1);
     } catch (const RunError&) {
       ++failures;
     }
-    setrlimit(RLIMIT_FSIZE, &limit);
   }
   EXPECT_EQ(failures, tries);
   EXPECT_GT(tries, 60);

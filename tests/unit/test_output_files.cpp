@@ -1,9 +1,7 @@
 // history.csv, summary.json and files that appear whole or not at all.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/resource.h>
 
-#include <csignal>
 #include <fstream>
 #include <limits>
 
@@ -11,6 +9,7 @@
 #include "io/history_writer.h"
 #include "io/summary.h"
 #include "koshi/error.h"
+#include "support/file_size_limit.h"
 #include "support/temporary_directory.h"
 
 namespace koshi::io {
@@ -20,21 +19,6 @@ namespace fs = std::filesystem;
 using testing::AllOf;
 using testing::HasSubstr;
 using testing::ThrowsMessage;
-
-/// Files of this process may not grow beyond `bytes` while the object lives, as on a full disk.
-class FileSizeLimit {
- public:
-  explicit FileSizeLimit(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &before_);
-    std::signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{bytes, before_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
-
- private:
-  rlimit before_{};
-};
 
 class OutputFilesTest : public testing::Test {
  protected:
@@ -56,7 +40,7 @@ TEST_F(OutputFilesTest, ReplacedFileIsWholeAndLeavesNothingBeside) {
 TEST_F(OutputFilesTest, FailedReplacementKeepsTheOldFile) {
   replace_file(directory / "a.txt", "first");
   {
-    const FileSizeLimit limit(1000);
+    const test::FileSizeLimit limit(1000);
     EXPECT_THAT([&] { replace_file(directory / "a.txt", std::string(1001, 'x')); },
                 ThrowsMessage<RunError>(AllOf(HasSubstr("a.txt: File too large"), HasSubstr("cannot write"))));
   }
@@ -127,7 +111,7 @@ TEST_F(OutputFilesTest, RestartRefusesOtherColumns) {
 
 TEST_F(OutputFilesTest, HistoryOnAFullDiskIsAnError) {
   auto writer = history(std::nullopt);
-  const FileSizeLimit limit(100);
+  const test::FileSizeLimit limit(100);
   int rows = 0;
   EXPECT_THAT(
       [&] {

@@ -1,0 +1,173 @@
+// Files that are no checkpoint of this case: each is refused with its reason, none crashes the reader.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+#include <fstream>
+
+#include "io/checkpoint.h"
+#include "io/checkpoint_seal.h"
+#include "io/files.h"
+#include "support/checkpoint_body.h"
+#include "support/temporary_directory.h"
+
+namespace koshi::io {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
+using testing::ThrowsMessage;
+
+const std::string case_text = "[lattice]\ncell = \"cube-III\"\nspacing = 0.25\n\n[material.rock]\ndensity = 1000\n";
+
+class CheckpointErrors : public testing::Test {
+ protected:
+  CheckpointErrors() {
+    test::fill(model, state, 7);
+    CheckpointInfo info;
+    info.case_text = case_text;
+    info.scalars["energy"] = 1;
+    write_checkpoint(directory.path(), model, state, info);
+    whole = read_file(file);
+  }
+  void expect_refused(const std::string& content, const std::string& reason) {
+    replace_file(file, content);
+    EXPECT_THAT([&] { read_checkpoint(file, model, case_text, state); },
+                ThrowsMessage<InputError>(AllOf(HasSubstr(file.native()), HasSubstr(reason))));
+  }
+
+  const Communicator world = Communicator::world();
+  const test::TemporaryDirectory directory;
+  const fs::path file = directory / "checkpoint.h5";
+  const model::Model model = model::make_model(test::checkpoint_definition(), world);
+  model::State state{model};
+  std::string whole;
+};
+
+TEST_F(CheckpointErrors, WholeFileIsAccepted) {
+  test::fill(model, state, 0);
+  EXPECT_EQ(read_checkpoint(directory.path(), model, case_text, state).step, 7);
+  EXPECT_TRUE(test::is_filled(model, state, 7));
+}
+
+TEST_F(CheckpointErrors, MissingFile) {
+  fs::remove(file);
+  EXPECT_THAT([&] { read_checkpoint(file, model, case_text, state); },
+              ThrowsMessage<InputError>(AllOf(HasSubstr("cannot read checkpoint " + file.native()),
+                                              HasSubstr("No such file or directory"), Not(HasSubstr("try")))));
+}
+
+TEST_F(CheckpointErrors, PredecessorIsSuggested) {
+  replace_file(directory / "checkpoint.previous.h5", whole);
+  const std::string remedy = "; try " + (directory / "checkpoint.previous.h5").native();
+  expect_refused("", remedy);
+  fs::remove(file);
+  EXPECT_THAT([&] { read_checkpoint(directory.path(), model, case_text, state); },
+              ThrowsMessage<InputError>(HasSubstr(remedy)));
+  EXPECT_EQ(read_checkpoint_header(directory / "checkpoint.previous.h5", world).step, 7);
+}
+
+TEST_F(CheckpointErrors, ForeignFiles) {
+  expect_refused("", "is no checkpoint of Koshi");
+  expect_refused("time,step\n0,1\n", "is no checkpoint of Koshi");
+  expect_refused(std::string(10000, '\0'), "is no checkpoint of Koshi");
+  const fs::path foreign = directory / "foreign.h5";
+  H5Fclose(H5Fcreate(foreign.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+  expect_refused(read_file(foreign), "is an HDF5 file, but no checkpoint of Koshi");
+}
+
+TEST_F(CheckpointErrors, OtherFormatVersion) {
+  std::string other = whole;
+  other.replace(other.find("format 1"), 8, "format 2");
+  expect_refused(other, "has checkpoint format 2, this Koshi reads format 1; go on with Koshi " KOSHI_VERSION);
+}
+
+TEST_F(CheckpointErrors, CutShortAnywhere) {
+  int count = 0;
+  for (std::size_t length = seal_size; length < whole.size(); length += 97, ++count)
+    expect_refused(whole.substr(0, length), "is cut short");
+  EXPECT_GT(count, 300);
+  expect_refused(whole + "x", "is cut short");
+}
+
+TEST_F(CheckpointErrors, AnyChangedByteIsFound) {
+  // Every byte of the seal and of HDF5's first structures, and every 13th of the rest.
+  int count = 0, refused = 0;
+  for (std::size_t at = 0; at < whole.size(); at += at < 4096 ? 1 : 13, ++count) {
+    std::string damaged = whole;
+    damaged[at] = static_cast<char>(damaged[at] ^ (1 << at % 8));
+    std::ofstream(file, std::ios::binary) << damaged;
+    try {
+      read_checkpoint(file, model, case_text, state);
+    } catch (const InputError&) {
+      ++refused;
+    }
+  }
+  EXPECT_EQ(refused, count);
+  EXPECT_GT(count, 4096 + 2000);
+}
+
+TEST_F(CheckpointErrors, CorruptedContentIsCalledSo) {
+  std::string damaged = whole;
+  damaged[20000] = static_cast<char>(damaged[20000] + 1);
+  expect_refused(damaged, "is corrupted: its checksum is ");
+}
+
+// With a right seal but not what a checkpoint holds: HDF5's own errors are reported, not printed, and not fatal.
+TEST_F(CheckpointErrors, SealedButNotACheckpoint) {
+  const auto seal = [&](const std::string& content) {
+    replace_file(file, content);
+    seal_checkpoint(file, world);
+    return read_file(file);
+  };
+  testing::internal::CaptureStderr();
+  expect_refused(seal(std::string(4096, 'x')), "is damaged: cannot open the file");
+  const hid_t creation = H5Pcreate(H5P_FILE_CREATE);
+  H5Pset_userblock(creation, seal_size);
+  H5Fclose(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation, H5P_DEFAULT));
+  H5Pclose(creation);
+  expect_refused(seal(read_file(file)), "is damaged: cannot find time");
+  EXPECT_EQ(testing::internal::GetCapturedStderr(), "");
+}
+
+TEST_F(CheckpointErrors, OtherCaseSaysWhatDiffers) {
+  std::string other = case_text;
+  other.replace(other.find("0.25"), 4, "0.125");
+  EXPECT_THAT([&] { read_checkpoint(file, model, other, state); },
+              ThrowsMessage<InputError>(
+                  HasSubstr("is of another case: in [lattice] `spacing = 0.25` there, `spacing = 0.125` here")));
+  EXPECT_THAT(
+      [&] { read_checkpoint(file, model, case_text + "youngs_modulus = 1\n", state); },
+      ThrowsMessage<InputError>(HasSubstr("in [material.rock] `nothing more` there, `youngs_modulus = 1` here")));
+  EXPECT_THAT([&] { read_checkpoint(file, model, "", state); },
+              ThrowsMessage<InputError>(HasSubstr("another case: `[lattice]` there, `nothing more` here")));
+}
+
+TEST_F(CheckpointErrors, OtherLattice) {
+  const model::Model finer = model::make_model(test::checkpoint_definition(false, 0.125), world);
+  model::State fine(finer);
+  EXPECT_THAT(
+      [&] { read_checkpoint(file, finer, case_text, fine); },
+      ThrowsMessage<InputError>(HasSubstr("of another lattice: displacement has 6 components on 8 x 6 x 7 nodes "
+                                          "there, 6 on 15 x 11 x 13 here")));
+  auto definition = test::checkpoint_definition();
+  definition.lattice.kinematics = material::Kinematics::least_squares;
+  const model::Model three = model::make_model(definition, world);
+  model::State translations(three);
+  EXPECT_THAT([&] { read_checkpoint(file, three, case_text, translations); },
+              ThrowsMessage<InputError>(HasSubstr("6 components on 8 x 6 x 7 nodes there, 3 on 8 x 6 x 7 here")));
+}
+
+TEST_F(CheckpointErrors, MissingField) {
+  lattice::Field<double> orientation(model.layout(), 4);
+  EXPECT_THAT(
+      [&] {
+        read_checkpoint(file, model, case_text, state, std::array{CheckpointField{"orientation", &orientation}});
+      },
+      ThrowsMessage<InputError>(HasSubstr("it does not have the field orientation")));
+}
+
+}  // namespace
+}  // namespace koshi::io
