@@ -37,7 +37,6 @@ std::int64_t expected_bytes(const model::Model& model, const CheckpointInfo& inf
 // Takes the file's space on the disk in advance. A full disk is met here, where the system gives the reason and nothing
 // is half done: HDF5 and MPI cannot close a file they could not write.
 void reserve(const fs::path& file, std::int64_t bytes) {
-  if (bytes > 0) return;
   const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
   int error = descriptor < 0 ? errno : 0;
   if (error == 0 && ::fallocate(descriptor, 0, 0, bytes) != 0) error = errno;
