@@ -21,6 +21,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options) {
   const model::Model& model = simulation.model();
   const model::Definition& definition = model.definition;
   const Communicator& communicator = model.communicator;
+  simulation.prepare();
   io::make_output_directory(communicator, options.directory);
   io::write_resolved(communicator, options.directory, io::resolved_toml(definition));
 

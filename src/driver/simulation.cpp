@@ -44,8 +44,17 @@ Simulation::Simulation(const model::Definition& definition, const Communicator& 
   }
 }
 
+void Simulation::prepare() {
+  const Type type = model_->definition.analysis.type;
+  if (type == Type::statics || stable_) return;
+  if (type == Type::quasi_static) check_support();
+  stable_ = mechanics::stable_step(*model_, *kernel_);
+  choose_step(*stable_);
+}
+
 Outcome Simulation::run(const Observer& observer, const std::vector<std::string>& petsc_options) {
   const double start = now();
+  prepare();
   Outcome outcome =
       model_->definition.analysis.type == Type::statics ? run_static(observer, petsc_options) : run_explicit(observer);
   outcome.seconds = now() - start;
@@ -118,9 +127,8 @@ void Simulation::check_divergence(const mechanics::Balance& balance) const {
 Outcome Simulation::run_explicit(const Observer& observer) {
   const model::AnalysisDefinition& analysis = model_->definition.analysis;
   const bool quasi_static = analysis.type == Type::quasi_static;
-  if (quasi_static) check_support();
   Outcome outcome;
-  outcome.stable = mechanics::stable_step(*model_, *kernel_);
+  outcome.stable = stable_;
   const Schedule schedule(model_->definition, choose_step(*outcome.stable));
   outcome.time_step = schedule.dt();
 

@@ -45,8 +45,12 @@ class Simulation {
  public:
   Simulation(const model::Definition& definition, const Communicator& communicator);
 
-  /// Runs the analysis of the definition from the present state to its end. Throws InputError for a time step that is
-  /// not stable or a body without support, RunError when the run diverges or does not converge.
+  /// Finds what only the built model shows to be wrong (collective): throws InputError for a time step that is not
+  /// stable or a quasi-static body without support. `run` does it too; before files are made is the time for it.
+  void prepare();
+
+  /// Runs the analysis of the definition from the present state to its end. Throws InputError as `prepare`, RunError
+  /// when the run diverges or does not converge.
   Outcome run(const Observer& observer, const std::vector<std::string>& petsc_options = {});
 
   const model::Model& model() const { return *model_; }
@@ -65,6 +69,7 @@ class Simulation {
   std::unique_ptr<mechanics::ForceKernel<double>> kernel_;
   std::unique_ptr<mechanics::Meter> meter_;
   std::unique_ptr<model::State> state_;
+  std::optional<mechanics::StableStep> stable_;  ///< explicit analyses, once prepared
 };
 
 }  // namespace koshi::driver

@@ -79,7 +79,7 @@ void check_memory(const Definition& definition) {
   const double spacing = definition.lattice.spacing * std::cbrt(needed / available);
   throw InputError(
       definition.places.find("lattice.spacing"),
-      fmt::format("the run needs {:.3g} GB of memory and {:.3g} GB are free; a spacing of about {:.2g} m would fit",
+      fmt::format("the run needs {:.3g} GB of memory and {:.3g} GB are free; a spacing of about {:.3g} m would fit",
                   needed / 1e9, available / 1e9, 1.02 * spacing));
 }
 

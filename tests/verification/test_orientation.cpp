@@ -103,6 +103,11 @@ TEST(Orientation, TorqueAcceleratesByTheInertia) {
   EXPECT_NEAR(b[0], 0.5, 1e-14);
   EXPECT_NEAR(b[1], 1.0, 1e-14);
   EXPECT_NEAR(b[2], 1.5, 1e-14);
+  // -omega x (I omega) / I = -(2 x 10.5 - 3 x 4) / 1, -(3 x 1 - 1 x 10.5) / 2, -(1 x 4 - 2 x 1) / 3.5.
+  const Vec3 gyroscopic = dynamics::angular_acceleration({1, 2, 3.5}, {}, {1, 2, 3});
+  EXPECT_NEAR(gyroscopic[0], -9, 1e-14);
+  EXPECT_NEAR(gyroscopic[1], 3.75, 1e-14);
+  EXPECT_NEAR(gyroscopic[2], -4.0 / 7, 1e-14);
 }
 
 }  // namespace

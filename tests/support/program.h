@@ -1,0 +1,40 @@
+// Runs the program as a user does.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+namespace koshi::test {
+
+struct Ended {
+  int code = -1;       ///< exit code
+  std::string output;  ///< standard output
+  std::string error;   ///< standard error
+};
+
+inline std::string read_file(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+inline void write_file(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+/// Runs `koshi ARGUMENTS` through the shell in a directory.
+inline Ended koshi(const std::filesystem::path& directory, const std::string& arguments) {
+  const auto out = directory / "stdout.txt", err = directory / "stderr.txt";
+  const std::string command = "cd '" + directory.native() + "' && '" KOSHI_PROGRAM "' " + arguments + " >'" +
+                              out.native() + "' 2>'" + err.native() + "' </dev/null";
+  const int status = std::system(command.c_str());
+  EXPECT_TRUE(WIFEXITED(status)) << command;
+  return {WEXITSTATUS(status), read_file(out), read_file(err)};
+}
+
+}  // namespace koshi::test
