@@ -5,6 +5,9 @@ import { choices, range, scalars } from "./field.js";
 import { quantity } from "./format.js";
 import { bounds, readMesh } from "./mesh.js";
 
+// Above this many quads only the bounding box is outlined, and no lines are drawn upon the surface.
+const MOST_QUADS_WITH_LINES = 300_000;
+
 // The start value of the deformation scale shows the largest displacement as this part of the body's diagonal.
 const VISIBLE_PART = 0.1;
 
@@ -13,6 +16,7 @@ export class Body {
   constructor(block) {
     this.mesh = readMesh(block, decode);
     this.bounds = bounds(this.mesh.points);
+    this.linesPossible = this.mesh.quads.length / 4 <= MOST_QUADS_WITH_LINES;
     this.samples = block.samples;
     this.note = block.note;
     this.cache = new Map();

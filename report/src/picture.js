@@ -2,9 +2,6 @@
 import { boxEdges, edges, visible } from "./mesh.js";
 import { Scene } from "./scene.js";
 
-// Above this many quads only the bounding box is outlined, and no lines are drawn upon the surface.
-const MOST_QUADS_WITH_LINES = 300_000;
-
 export class Picture {
   /**
    * @param {Body} body
@@ -14,9 +11,8 @@ export class Picture {
   constructor(body, container, interactive) {
     this.body = body;
     this.scene = new Scene(container, interactive);
-    this.linesPossible = body.mesh.quads.length / 4 <= MOST_QUADS_WITH_LINES;
     const { points, quads } = body.mesh;
-    this.outline = this.linesPossible ? { points, pairs: edges(points, quads, true) } : boxEdges(body.bounds);
+    this.outline = body.linesPossible ? { points, pairs: edges(points, quads, true) } : boxEdges(body.bounds);
     this.shown = {};
   }
 
@@ -29,7 +25,7 @@ export class Picture {
     const differs = (...keys) => keys.some((key) => this.shown[key] !== state[key]);
     if (differs("cut", "lines")) {
       this.part = visible(body.mesh, state.cut);
-      const wanted = this.linesPossible && state.lines !== "none";
+      const wanted = body.linesPossible && state.lines !== "none";
       const pairs = wanted ? edges(body.mesh.points, this.part.quads, state.lines === "edges") : null;
       scene.setBody(body.positions(state.sample, state.scale), this.part.quads, pairs);
     } else if (differs("sample", "scale")) {

@@ -128,6 +128,7 @@ export class Scene {
   setLineColours(line, outline) {
     this.lines.actor.getProperty().setColor(...components(line));
     this.lines.actor.getProperty().setOpacity(0.55);
+    this.outline.actor.getProperty().setOpacity(0.7);
     this.outline.actor.getProperty().setColor(...components(outline));
   }
 
@@ -168,6 +169,11 @@ export class Scene {
   render() {
     this.renderer.resetCameraClippingRange();
     this.window.render();
+  }
+
+  /** Whether the reader looks along an axis (positive) or against it (negative). */
+  looksAlong(axis) {
+    return this.camera.getDirectionOfProjection()[axis] ?? 0;
   }
 
   /** Screen directions (right, up) of the body's three axes, each of length <= 1. */

@@ -37,7 +37,7 @@ export function viewer(block) {
 
   const panel = element("div", { class: "panel", role: "group", "aria-label": "Controls of the view" },
     fieldControls(body, state, change), sampleControls(body, state, change), deformationControls(body, state, change),
-    cutControls(body, change), viewControls(change, () => picture));
+    cutControls(body, change, (axis) => picture?.scene.looksAlong(axis)), viewControls(body, change, () => picture));
   const node = section("body", "Deformed body",
     element("div", { class: "viewer" },
       element("figure", { class: "stage" }, element("div", { class: "frame" }, view, readout), key,
@@ -148,14 +148,14 @@ function deformationControls(body, state, change) {
       element("label", { class: "check" }, outline, "outline")));
 }
 
-function cutControls(body, change) {
+function cutControls(body, change, looksAlong) {
   const axis = select("Plane", [["", "none"], ...AXES.map((name) => [name, `across ${name}`])], { id: "cut" });
   const slider = element("input", { type: "range", id: "cut-position", min: 0, max: CUT_STEPS, step: 1, value: CUT_STEPS / 2 });
   const value = element("output", { class: "value", for: "cut-position" });
   const flip = element("input", { type: "checkbox", id: "cut-flip" });
   const position = element("div", { hidden: true },
     element("div", { class: "inline" }, element("label", { class: "wide" }, element("span", { class: "hidden", text: "Position of the cut" }), slider), value),
-    element("label", { class: "check" }, flip, "show the other side"));
+    element("label", { class: "check" }, flip, "keep the upper side"));
   const { lattice } = body.mesh;
   const show = () => {
     const across = AXES.indexOf(axis.list.value);
@@ -167,15 +167,18 @@ function cutControls(body, change) {
     value.textContent = `${axis.list.value} = ${quantity(Math.abs(at) < 1e-12 * (max - min) ? 0 : at, "m", 4)}`;
     change({ cut: { axis: across, position: at, flip: flip.checked } });
   };
+  // A new cut takes away the side the reader is on, or the bared face would be hidden.
+  axis.list.addEventListener("input", () => { flip.checked = looksAlong(AXES.indexOf(axis.list.value)) > 0; });
   for (const control of [axis.list, slider, flip]) control.addEventListener("input", show);
   return element("fieldset", {}, element("legend", { text: "Cut" }), axis.row, position);
 }
 
-function viewControls(change, picture) {
+function viewControls(body, change, picture) {
   const look = (name) => () => { picture()?.scene.view(name); picture()?.scene.render(); };
   const save = () => picture() && element("a", { href: picture().scene.capture(), download: "body.png" }).click();
   const button = (text, click, title) => element("button", { type: "button", text, title, on: { click } });
   const lines = select("Lines", [["edges", "edges of the body"], ["cells", "all cells"], ["none", "none"]], { id: "lines" });
+  lines.row.hidden = !body.linesPossible;
   lines.list.addEventListener("change", () => change({ lines: lines.list.value }));
   return element("fieldset", {}, element("legend", { text: "View" }), lines.row,
     element("div", { class: "inline" }, ...["x", "y", "z", "oblique"].map((name) => button(name, look(name), `Look along ${name}`)),

@@ -118,7 +118,7 @@ test("the cut takes part of the body away and shows cell borders", async () => {
   await changes(() => page.fill("#cut-position", "50"), 0.02);
   // A quarter of 39 layers of 2 mm: the border nearest to 19.5 mm is at 20 mm.
   assert.equal(await page.locator("output[for=cut-position]").textContent(), "y = 20\u00a0mm");
-  await changes(() => page.check("#cut-flip"), 0.05);
+  await changes(() => page.uncheck("#cut-flip"), 0.05);
   await changes(() => page.selectOption("#cut", ""), 0.05);
 });
 

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <set>
+#include <optional>
 
 #include "driver/report_surface.h"
 #include "io/field_reader.h"
@@ -41,16 +42,16 @@ json field_block(const io::FieldInfo& field, std::span<const float> values) {
 json material_block(const io::FieldReader& reader, std::span<const std::int64_t> cells,
                     std::span<const std::string> materials) {
   const std::span<const std::uint8_t> material = reader.material();
-  const std::set<std::uint8_t> present(material.begin(), material.end());
+  std::array<bool, 256> present{};
+  for (const std::uint8_t code : material) present[code] = true;
   std::vector<float> values;
   values.reserve(cells.size());
   for (const std::int64_t cell : cells) values.push_back(material[static_cast<std::size_t>(cell)]);
   json categories = json::object();
-  for (const std::uint8_t code : present)
-    if (code != 0) {
-      const bool named = code <= materials.size();
-      categories[fmt::format("{}", code)] = named ? materials[code - 1U] : fmt::format("material {}", code);
-    }
+  for (std::size_t code = 1; code < present.size(); ++code)
+    if (present[code])
+      categories[fmt::format("{}", code)] =
+          code <= materials.size() ? materials[code - 1] : fmt::format("material {}", code);
   if (categories.size() < 2) return nullptr;
   return {
       {"kind", "category"}, {"on", "cells"}, {"unit", "1"}, {"categories", categories}, {"data", io::encoded(values)}};
@@ -134,7 +135,9 @@ nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::sp
   const auto chosen = chosen_samples(samples.size(), limits.sample_bytes / std::max(sample_bytes, 1.0));
   mesh["samples"] = json::array();
   for (const std::size_t s : chosen) {
-    const io::FieldReader reader(samples[s].path);
+    std::optional<io::FieldReader> other;
+    if (s > 0) other.emplace(samples[s].path);
+    const io::FieldReader& reader = other ? *other : first;
     if (reader.cells() != first.cells())
       throw InputError(
           fmt::format("{} and {} are of different bodies", samples[s].path.native(), samples[0].path.native()));
