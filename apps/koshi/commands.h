@@ -25,6 +25,9 @@ void add_calibrate_command(CLI::App& app);
 /// `koshi paper`: the two analyses of Nishimura et al.
 void add_paper_command(CLI::App& app);
 
+/// `koshi report DIR`: the results of a run as one page.
+void add_report_command(CLI::App& app);
+
 /// `koshi schema`: JSON Schema of the input.
 void add_schema_command(CLI::App& app);
 

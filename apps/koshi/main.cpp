@@ -22,6 +22,7 @@ int main(int argc, char** argv) {
   koshi::app::add_check_command(app);
   koshi::app::add_calibrate_command(app);
   koshi::app::add_paper_command(app);
+  koshi::app::add_report_command(app);
   koshi::app::add_schema_command(app);
   try {
     // CLI11 takes the arguments in reverse order, without the program's name.

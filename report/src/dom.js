@@ -17,6 +17,11 @@ export function element(tag, properties = {}, ...children) {
   return node;
 }
 
+/** A text in which "E_x" has a real subscript, as nodes. */
+export function subscripted(text) {
+  return text.split(/_(\w+)/).map((part, i) => (i % 2 ? element("sub", { text: part }) : part));
+}
+
 /** A section of the page with its heading, or null when there is nothing to put in it. */
 export function section(id, title, ...children) {
   const present = children.flat().filter(Boolean);

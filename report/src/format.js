@@ -44,7 +44,8 @@ export function number(value, digits = 6) {
   if (Number.isInteger(value) && Math.abs(value) < 1e15) return grouped(value);
   const size = Math.abs(value);
   if (size < 1e-4 || size >= 1e7) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e");
-  return String(Number(value.toPrecision(digits)));
+  const rounded = Number(value.toPrecision(digits));
+  return Number.isInteger(rounded) ? grouped(rounded) : String(rounded);
 }
 
 // Thin spaces between thousands, from five digits on.

@@ -8,7 +8,7 @@ import { themeButton } from "./theme.js";
 export function header({ title, subtitle, facts = [], version }, links) {
   const fact = ({ label, value, unit }) => element("div", {},
     element("dt", { text: label }),
-    element("dd", { title: typeof value === "string" ? null : String(value), text: quantity(value, unit) }));
+    element("dd", { title: typeof value === "string" ? null : String(value), text: quantity(value, unit, 5) }));
   return element("header", {},
     element("div", { class: "masthead" }, element("span", { class: "brand", text: version ? `Koshi ${version}` : "Koshi" }), themeButton()),
     element("h1", { text: title }),

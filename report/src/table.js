@@ -1,5 +1,5 @@
 // Tables: a fitting prefix for each unit, numbers to six digits, the full value as a tooltip.
-import { element } from "./dom.js";
+import { element, subscripted } from "./dom.js";
 import { labelled, magnitudeOf, number, prefixed, quantity } from "./format.js";
 
 /**
@@ -15,9 +15,9 @@ export function table(block) {
     return { name, numeric: numbers[i].length > 0, ...prefixed(magnitudeOf(alike), unit) };
   });
   const head = columns.map(({ name, unit, numeric }) =>
-    element("th", { scope: "col", class: numeric ? "number" : null, text: labelled(name, unit) }));
+    element("th", { scope: "col", class: numeric ? "number" : null }, ...subscripted(labelled(name, unit))));
   const body = block.rows.map((row) => element("tr", {}, ...row.map((value, i) => cell(value, columns[i]))));
-  return element("div", { class: "table" },
+  return element("div", { class: columns.length > 8 ? "table broad" : "table" },
     block.title ? element("h3", { text: block.title }) : null,
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": block.title ?? "Table" },
       element("table", {}, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...body))),
@@ -25,7 +25,7 @@ export function table(block) {
 }
 
 function cell(value, { factor, numeric }) {
-  if (value?.unit) return element("td", { class: "number", title: String(value.value), dataset: { value: value.value }, text: quantity(value.value, value.unit) });
+  if (value?.unit) return element("td", { title: String(value.value), dataset: { value: value.value }, text: quantity(value.value, value.unit) });
   if (typeof value !== "number") return element("td", { class: numeric ? "number" : null, text: value ?? "–" });
   return element("td", { class: "number", title: String(value), dataset: { value }, text: number(value / factor) });
 }

@@ -38,15 +38,15 @@ json facts(const model::Definition& definition, const json& summary) {
   json list = json::array();
   if (definition.body.size != Vec3{}) list.push_back(fact("Body", definition.body.size, "m"));
   list.push_back(fact("Spacing", definition.lattice.spacing, "m"));
-  const auto add = [&](const char* label, const char* pointer, const char* unit) {
+  const auto add = [&](const char* label, const char* pointer, const char* unit = nullptr) {
     const json value = summary.value(json::json_pointer(pointer), json());
     if (value.is_number()) list.push_back(fact(label, value, unit));
   };
-  add("Cells", "/analysis/cells", nullptr);
-  add("Nodes", "/analysis/nodes", nullptr);
-  add("Unknowns", "/analysis/unknowns", nullptr);
-  add("Steps", "/analysis/steps", nullptr);
-  add("Iterations", "/analysis/iterations", nullptr);
+  add("Cells", "/body/solid_cells");
+  add("Nodes", "/body/nodes");
+  add("Unknowns", "/analysis/unknowns");
+  add("Steps", "/analysis/steps");
+  add("Iterations", "/analysis/iterations");
   add("Computed in", "/performance/seconds", "s");
   return list;
 }
@@ -85,7 +85,7 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
             {"case", io::read_file(input)},
             {"summary", summary},
             {"materials", materials_table(definition)}};
-  const SpringTables springs = spring_tables(definition);
+  const SpringTables springs = spring_tables(definition, summary);
   data["springs"] = springs.springs;
   data["achieved"] = springs.achieved;
   data["probes"] = probe_tables(definition, summary);

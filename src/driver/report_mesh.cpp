@@ -21,14 +21,16 @@ using json = nlohmann::ordered_json;
 std::string unit_of_field(const std::string& name) {
   static const std::map<std::string, std::string> units{
       {"displacement", "m"}, {"rotation", "rad"}, {"orientation", "rad"}, {"velocity", "m/s"},
-      {"reaction", "N"},     {"stress", "Pa"},    {"energy", "J"}};
+      {"reaction", "N"},     {"stress", "Pa"},    {"energy", "J/m^3"}};
   const auto unit = units.find(name);
   return unit == units.end() ? "1" : unit->second;
 }
 
 json field_block(const io::FieldInfo& field, std::span<const float> values) {
   const std::size_t components = field.components.size();
-  json block{{"kind", components == 3   ? "vector"
+  // Three numbers that are no components along the axes, such as Euler angles, have no magnitude.
+  const bool vector = field.components == std::vector<std::string>{"x", "y", "z"};
+  json block{{"kind", vector            ? "vector"
                       : components == 6 ? "symmetric-tensor"
                                         : "scalar"},
              {"on", field.on_cells ? "cells" : "points"},

@@ -38,11 +38,25 @@ double deviation(std::initializer_list<double> achieved, double asked) {
   return largest;
 }
 
+// Springs as the run had them; those of the calibration where the summary is missing.
+material::Springs springs_of(const json& summary, const std::string& material, const material::Springs& calibrated) {
+  const json part = summary.value(json::json_pointer("/springs") / material, json());
+  if (!part.is_object()) return calibrated;
+  material::Springs springs;
+  for (std::size_t family = 0; family < family_names.size(); ++family) {
+    const json& bond = part.at(std::string(family_names[family]));
+    springs.kn[family] = bond.at("kn");
+    springs.kt[family] = bond.at("kt");
+  }
+  springs.kappa = part.at("kappa");
+  return springs;
+}
+
 void append_springs(json& rows, const std::string& material, lattice::CellType cell, const material::Springs& springs) {
   constexpr std::array<const char*, lattice::family_count> bonds{"edges", "face diagonals", "body diagonals"};
   for (std::size_t family = 0; family < static_cast<std::size_t>(lattice::families_of(cell)); ++family)
     rows.push_back({material, bonds[family], springs.kn[family], springs.kt[family],
-                    family == 0 ? json(springs.kappa) : json(nullptr)});
+                    family == 0 ? json(springs.kappa) : json("")});
 }
 
 void append_achieved(json& rows, const std::string& material, const Calibrated& found) {
@@ -62,22 +76,25 @@ std::string selection_text(const model::ProbeDefinition& probe) {
   return probe.reduce ? fmt::format("{}, {}", nodes, model::choice_name(*probe.reduce)) : nodes;
 }
 
-// SI unit of a number of the summary, which goes by the end of its key.
+// SI unit of a number of the summary, which goes by its key.
 std::string unit_of_key(const std::string& key) {
-  if (key.ends_with("seconds")) return "s";
-  if (key.ends_with("time_step") || key == "time") return "s";
+  if (key.ends_with("seconds") || key == "time" || key == "time_step") return "s";
   if (key.ends_with("memory")) return "B";
-  if (key.ends_with("energy")) return "J";
   return "1";
 }
 
-void append_numbers(json& rows, const json& part, const std::string& unit) {
+// Rows for the numbers, words and yes-or-no of one part of the summary; `suffix` completes the keys' names.
+void append_part(json& rows, const json& part, const std::string& suffix, const std::string& unit) {
+  if (!part.is_object()) return;
   for (const auto& [key, value] : part.items()) {
-    if (!value.is_number() && !value.is_string()) continue;
-    std::string label = key;
+    std::string label = key == "seconds" ? "wall time" : key + suffix;
     std::ranges::replace(label, '_', ' ');
-    const std::string own = unit.empty() ? unit_of_key(key) : unit;
-    rows.push_back({label, value.is_number() ? json{{"value", value}, {"unit", own}} : value});
+    if (value.is_number())
+      rows.push_back({label, json{{"value", value}, {"unit", unit.empty() ? unit_of_key(key) : unit}}});
+    else if (value.is_boolean())
+      rows.push_back({label, value.get<bool>() ? "yes" : "no"});
+    else if (value.is_string())
+      rows.push_back({label, value});
   }
 }
 
@@ -97,7 +114,7 @@ nlohmann::ordered_json materials_table(const model::Definition& definition) {
   return block;
 }
 
-SpringTables spring_tables(const model::Definition& definition) {
+SpringTables spring_tables(const model::Definition& definition, const nlohmann::ordered_json& summary) {
   SpringTables tables{
       table({column("material"), column("bonds"), column("kn", "N/m"), column("kt", "N/m"), column("κ", "Pa")}),
       table({column("material"), column("E asked", "Pa"), column("E_x", "Pa"), column("E_y", "Pa"), column("E_z", "Pa"),
@@ -105,7 +122,7 @@ SpringTables spring_tables(const model::Definition& definition) {
              column("deviation"), column("Zener ratio")})};
   for (const auto& [name, elastic] : definition.materials) {
     const Calibrated found = calibrated(definition, elastic);
-    append_springs(tables.springs["rows"], name, definition.lattice.cell, found.springs);
+    append_springs(tables.springs["rows"], name, definition.lattice.cell, springs_of(summary, name, found.springs));
     append_achieved(tables.achieved["rows"], name, found);
   }
   const bool body = definition.lattice.springs == material::Sharing::plain;
@@ -139,9 +156,9 @@ nlohmann::ordered_json probe_tables(const model::Definition& definition, const n
 
 nlohmann::ordered_json numbers_table(const nlohmann::ordered_json& summary) {
   json block = table({column("quantity"), column("value")});
-  for (const char* part : {"analysis", "energy", "performance"})
-    if (summary.contains(part) && summary[part].is_object())
-      append_numbers(block["rows"], summary[part], std::string(part) == "energy" ? "J" : "");
+  append_part(block["rows"], summary.value("analysis", json()), "", "");
+  append_part(block["rows"], summary.value("energy", json()), " energy", "J");
+  append_part(block["rows"], summary.value("performance", json()), "", "");
   return block;
 }
 

@@ -13,12 +13,13 @@ std::string report_subtitle(const model::Definition& definition);
 
 nlohmann::ordered_json materials_table(const model::Definition& definition);
 
-/// Springs of every material by bond family, and the elastic constants they give beside those asked for.
+/// Springs of every material by bond family, as the summary has them, and the elastic constants that the calibration
+/// gives beside those asked for.
 struct SpringTables {
   nlohmann::ordered_json springs;
   nlohmann::ordered_json achieved;
 };
-SpringTables spring_tables(const model::Definition& definition);
+SpringTables spring_tables(const model::Definition& definition, const nlohmann::ordered_json& summary);
 
 /// A table for each quantity that the summary's probes hold.
 nlohmann::ordered_json probe_tables(const model::Definition& definition, const nlohmann::ordered_json& summary);

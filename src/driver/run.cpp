@@ -4,9 +4,11 @@
 
 #include <cstdio>
 
+#include "base/collective.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "driver/fields.h"
+#include "driver/report.h"
 #include "driver/results.h"
 #include "driver/run_simulation.h"
 #include "io/field_writer.h"
@@ -42,6 +44,9 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options) {
   Outcome outcome = simulation.run(observer, options.petsc_options);
   io::write_summary(communicator, options.directory,
                     summary(model, simulation.state(), outcome, peak_memory(communicator)));
+  collectively(communicator, [&] {
+    if (definition.output.report && communicator.is_root()) write_report(options.directory);
+  });
   progress.finish("");
   return outcome;
 }

@@ -1,0 +1,19 @@
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "commands.h"
+#include "driver/report.h"
+
+namespace koshi::app {
+
+void add_report_command(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("report", "Show the results in an output directory as one page, report.html");
+  const auto directory = std::make_shared<std::filesystem::path>();
+  command->add_option("directory", *directory, "Output directory of a run")->required();
+  command->callback([directory] {
+    driver::write_report(*directory);
+    std::cout << "report in " << (*directory / "report.html").string() << '\n';
+  });
+}
+
+}  // namespace koshi::app
