@@ -14,6 +14,9 @@ class Environment {
   ~Environment();
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
+
+  /// Whether somebody has started the layer.
+  static bool is_running();
 };
 
 /// A group of ranks. All functions but rank() and size() are collective.

@@ -14,10 +14,14 @@ MPI_Comm mpi(int handle) { return MPI_Comm_f2c(handle); }
 Environment::Environment(int* argc, char*** argv) { MPI_Init(argc, argv); }
 Environment::~Environment() { MPI_Finalize(); }
 
-Communicator Communicator::world() {
+bool Environment::is_running() {
   int ready = 0;
   MPI_Initialized(&ready);
-  if (!ready) MPI_Init(nullptr, nullptr);
+  return ready != 0;
+}
+
+Communicator Communicator::world() {
+  if (!Environment::is_running()) MPI_Init(nullptr, nullptr);
   return Communicator(MPI_Comm_c2f(MPI_COMM_WORLD));
 }
 

@@ -11,6 +11,7 @@
 #include "driver/report.h"
 #include "driver/results.h"
 #include "driver/run_simulation.h"
+#include "io/cell_image.h"
 #include "io/field_writer.h"
 #include "io/history_writer.h"
 #include "io/output_directory.h"
@@ -19,13 +20,14 @@
 
 namespace koshi::driver {
 
-Outcome run_simulation(Simulation& simulation, const RunOptions& options) {
+Outcome run_simulation(Simulation& simulation, const RunOptions& options, const Observer& outer) {
   const model::Model& model = simulation.model();
   const model::Definition& definition = model.definition;
   const Communicator& communicator = model.communicator;
   simulation.prepare();
   io::make_output_directory(communicator, options.directory);
-  io::write_resolved(communicator, options.directory, io::resolved_toml(definition));
+  io::write_resolved(communicator, options.directory,
+                     io::resolved_toml(io::with_cells_in_file(communicator, definition, options.directory)));
 
   io::FieldWriter field_writer(model, options.directory, std::nullopt);
   io::HistoryWriter history(communicator, options.directory, history_columns(model), std::nullopt);
@@ -39,7 +41,11 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options) {
     const FieldSet set(definition.output.fields, model, state, simulation.meter());
     field_writer.write(state.time, set.fields());
   };
-  observer.progress = [&](double fraction, const std::string& details) { progress.update(fraction, details); };
+  observer.progress = [&](double fraction, const std::string& details) {
+    progress.update(fraction, details);
+    if (outer.progress) outer.progress(fraction, details);
+  };
+  observer.poll = outer.poll;
 
   Outcome outcome = simulation.run(observer, options.petsc_options);
   io::write_summary(communicator, options.directory,
@@ -51,18 +57,21 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options) {
   return outcome;
 }
 
+void require_rest(const model::Model& model, const Outcome& outcome, const std::string& remark) {
+  if (outcome.converged) return;
+  throw RunError(fmt::format(
+      "not at rest after {} steps: unbalanced-force ratio {:.2e}, tolerance {:.2e}; give more time "
+      "(analysis.duration), more damping, or a larger tolerance{}",
+      outcome.steps, outcome.measurement.balance.unbalanced_ratio(), model.definition.analysis.tolerance, remark));
+}
+
 void run(const model::Definition& definition, const RunOptions& options, const Communicator& communicator) {
   // Everything that can be wrong with the input is found before the output directory is made.
   Simulation simulation(definition, communicator);
   const Outcome outcome = run_simulation(simulation, options);
   if (!options.quiet && communicator.is_root())
     fmt::print("{}results in {}\n", headline(simulation.model(), outcome), options.directory.string());
-  if (!outcome.converged)
-    throw RunError(
-        fmt::format("not at rest after {} steps: unbalanced-force ratio {:.2e}, tolerance {:.2e}; give more time "
-                    "(analysis.duration), more damping, or a larger tolerance; the results so far are in {}",
-                    outcome.steps, outcome.measurement.balance.unbalanced_ratio(), definition.analysis.tolerance,
-                    options.directory.string()));
+  require_rest(simulation.model(), outcome, "; the results so far are in " + options.directory.string());
 }
 
 }  // namespace koshi::driver

@@ -6,7 +6,11 @@
 
 namespace koshi::driver {
 
-/// Runs the simulation and writes its output directory, summary included (collective).
-Outcome run_simulation(Simulation& simulation, const RunOptions& options);
+/// Runs the simulation and writes its output directory, summary included (collective). Of `observer`, `poll` and
+/// `progress` are called too.
+Outcome run_simulation(Simulation& simulation, const RunOptions& options, const Observer& observer = {});
+
+/// Throws RunError when a quasi-static run did not come to rest; `remark` ends its text.
+void require_rest(const model::Model& model, const Outcome& outcome, const std::string& remark = "");
 
 }  // namespace koshi::driver

@@ -34,7 +34,7 @@ model::Model load_model(const model::Definition& definition, const Communicator&
 }
 
 Simulation::Simulation(const model::Definition& definition, const Communicator& communicator)
-    : model_(std::make_unique<const model::Model>(load_model(definition, communicator))),
+    : model_(std::make_unique<model::Model>(load_model(definition, communicator))),
       kernel_(std::make_unique<mechanics::ForceKernel<double>>(model_->lattice)),
       meter_(std::make_unique<mechanics::Meter>(*model_, *kernel_)),
       state_(std::make_unique<model::State>(*model_)) {
@@ -46,17 +46,18 @@ Simulation::Simulation(const model::Definition& definition, const Communicator& 
 
 void Simulation::prepare() {
   const Type type = model_->definition.analysis.type;
-  if (type == Type::statics || stable_) return;
+  if (type == Type::statics) return;
   if (type == Type::quasi_static) check_support();
-  stable_ = mechanics::stable_step(*model_, *kernel_);
-  choose_step(*stable_);
+  time_step();
 }
 
 Outcome Simulation::run(const Observer& observer, const std::vector<std::string>& petsc_options) {
   const double start = now();
   prepare();
+  stepper_.reset();
   Outcome outcome =
       model_->definition.analysis.type == Type::statics ? run_static(observer, petsc_options) : run_explicit(observer);
+  lag_ = outcome.time_step;
   outcome.seconds = now() - start;
   return outcome;
 }

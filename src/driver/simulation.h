@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "koshi/dynamics.h"
 #include "koshi/model.h"
 #include "koshi/statics.h"
 #include "mechanics/measure.h"
@@ -53,6 +54,19 @@ class Simulation {
   /// when the run diverges or does not converge.
   Outcome run(const Observer& observer, const std::vector<std::string>& petsc_options = {});
 
+  /// Explicit steps outside a run, whatever the type of the analysis (collective).
+  void step(std::int64_t count);
+  /// The step of `step` [s] (collective): the one the analysis names, else its safety times the stable limit.
+  double time_step();
+  /// Balance and probes of the present state (collective).
+  mechanics::Measurement measure();
+
+  /// From now on the load is `value` times its definition, whatever its history. Errors: InputError for an unknown
+  /// name.
+  void set_load_factor(const std::string& name, double value);
+  /// From now on the boundary's motion is `value` times its definition, whatever its ramp and history.
+  void set_boundary_factor(const std::string& name, double value);
+
   const model::Model& model() const { return *model_; }
   model::State& state() { return *state_; }
   mechanics::Meter& meter() { return *meter_; }
@@ -64,12 +78,14 @@ class Simulation {
   void check_support() const;
   void check_divergence(const mechanics::Balance& balance) const;
 
-  // On the heap, since parts refer to each other.
-  std::unique_ptr<const model::Model> model_;
+  // On the heap, since parts refer to each other. Of the model only factors of loads and boundaries ever change.
+  std::unique_ptr<model::Model> model_;
   std::unique_ptr<mechanics::ForceKernel<double>> kernel_;
   std::unique_ptr<mechanics::Meter> meter_;
   std::unique_ptr<model::State> state_;
-  std::optional<mechanics::StableStep> stable_;  ///< explicit analyses, once prepared
+  std::optional<mechanics::StableStep> stable_;        // once an explicit step was asked for
+  std::unique_ptr<dynamics::ExplicitSolver> stepper_;  // of `step`; none during and after a run
+  double lag_ = 0;                                     // step whose middle the state's velocities belong to [s]
 };
 
 }  // namespace koshi::driver

@@ -8,12 +8,16 @@
 #include <vtkNew.h>
 #include <vtkNrrdReader.h>
 #include <vtkPointData.h>
+#include <vtkUnsignedCharArray.h>
 #include <vtkXMLImageDataReader.h>
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 
+#include "base/collective.h"
+#include "io/image.h"
 #include "io/npy.h"
 #include "io/vtk_errors.h"
 #include "model/check.h"
@@ -142,6 +146,33 @@ void set_cells(const CellImage& image, model::Definition& definition) {
     check.fail("body.materials",
                fmt::format("the image also has the value{} {}; name a material, or \"void\", for each",
                            unknown.size() == 1 ? "" : "s", list_of(unknown)));
+}
+
+model::Definition with_cells_in_file(const Communicator& communicator, model::Definition definition,
+                                     const std::filesystem::path& directory) {
+  model::BodyDefinition& body = definition.body;
+  if (body.cells.empty() || !body.image.empty()) return definition;
+  const std::filesystem::path file = std::filesystem::absolute(directory / "cells.vti");
+  collectively(communicator, [&] {
+    if (!communicator.is_root()) return;
+    const double d = definition.lattice.spacing;
+    vtkNew<vtkImageData> image;
+    std::array<int, 3> points{};
+    for (std::size_t a = 0; a < 3; ++a) points[a] = static_cast<int>(std::lround(body.size[a] / d)) + 1;
+    image->SetDimensions(points.data());
+    image->SetSpacing(d, d, d);
+    image->SetOrigin(body.origin.data());
+    vtkNew<vtkUnsignedCharArray> material;
+    material->SetName("material");
+    material->SetArray(body.cells.data(), static_cast<vtkIdType>(body.cells.size()), 1);
+    image->GetCellData()->AddArray(material);
+    write_image(file, image);
+  });
+  body.image = file.string();
+  body.image_materials = {{0, "void"}};
+  for (std::size_t m = 0; m < definition.materials.size(); ++m)
+    body.image_materials[static_cast<int>(m) + 1] = definition.materials[m].name;
+  return definition;
 }
 
 }  // namespace koshi::io

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 
+#include "koshi/communicator.h"
 #include "koshi/definition.h"
 
 namespace koshi::io {
@@ -23,5 +24,10 @@ CellImage read_cell_image(const std::filesystem::path& file);
 /// Sets body.cells by body.image_materials, and body.size if it is unset. Errors: InputError at the image, its
 /// materials or the size.
 void set_cells(const CellImage& image, model::Definition& definition);
+
+/// The definition with cells that a program gave in `directory`/cells.vti, so that its resolved input names them
+/// (collective). Errors: RunError when the file cannot be written.
+model::Definition with_cells_in_file(const Communicator& communicator, model::Definition definition,
+                                     const std::filesystem::path& directory);
 
 }  // namespace koshi::io

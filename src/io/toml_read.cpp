@@ -6,6 +6,7 @@
 
 #include "io/toml_key.h"
 #include "io/toml_override.h"
+#include "io/toml_read.h"
 #include "koshi/calibration.h"
 #include "koshi/input.h"
 
@@ -66,12 +67,15 @@ std::string contents(const std::filesystem::path& file) {
 
 model::Definition read_case_text(std::string_view text, const std::string& file_name,
                                  std::span<const std::string> overrides) {
-  Value root = parse_toml(text, file_name);
+  const auto directory = std::filesystem::path(file_name).parent_path();
+  return read_case_values(parse_toml(text, file_name), directory.empty() ? "." : directory.string(), overrides);
+}
+
+model::Definition read_case_values(Value root, const std::string& directory, std::span<const std::string> overrides) {
   for (const std::string& override : overrides) apply_override(root, override);
 
   model::Definition definition;
-  const auto directory = std::filesystem::path(file_name).parent_path();
-  definition.directory = directory.empty() ? "." : directory.string();
+  definition.directory = directory;
   record_places(root, "", definition.places);
   read_table(root, "the input", definition);
   fill_in(root, definition);

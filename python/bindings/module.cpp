@@ -1,0 +1,65 @@
+// The extension under the Python package koshi: what the package needs of the library, without defaults of its own.
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+#include <pybind11/stl.h>
+
+#include <memory>
+
+#include "driver/calibrate.h"
+#include "io/cell_image.h"
+#include "io/toml_read.h"
+#include "koshi/communicator.h"
+#include "koshi/input.h"
+#include "simulation.h"
+#include "values.h"
+
+namespace py = pybind11;
+
+namespace koshi::python {
+namespace {
+
+using Values = py::array_t<std::int64_t, py::array::c_style>;
+
+// Materials of the cells from an array [z][y][x] in place of the file that body.image names.
+void set_cells(model::Definition& definition, const Values& values) {
+  const Int3 cells{values.shape(2), values.shape(1), values.shape(0)};
+  const io::CellImage image{cells, {1, cells[0], cells[0] * cells[1]}, [data = values.data()](std::int64_t i) {
+                              return static_cast<double>(data[i]);
+                            }};
+  io::set_cells(image, definition);
+  definition.body.image.clear();
+}
+
+std::string calibrate(const model::Definition& definition, bool of_body) {
+  const auto size = of_body ? std::optional(definition.body.size) : std::nullopt;
+  return driver::calibration_json(driver::calibrate(definition.lattice, definition.materials.front().elastic, size))
+      .dump();
+}
+
+}  // namespace
+}  // namespace koshi::python
+
+PYBIND11_MODULE(_koshi, module) {
+  using namespace koshi;
+  module.attr("__version__") = KOSHI_VERSION;
+  py::register_exception<InputError>(module, "InputError", PyExc_ValueError);
+  py::register_exception<RunError>(module, "RunError", PyExc_RuntimeError);
+
+  // Whoever starts the message-passing layer ends it: mpi4py, if it was imported before, else this module.
+  if (!Environment::is_running()) {
+    auto environment = std::make_shared<std::unique_ptr<Environment>>(std::make_unique<Environment>(nullptr, nullptr));
+    py::module_::import("atexit").attr("register")(py::cpp_function([environment] { environment->reset(); }));
+  }
+
+  py::class_<model::Definition>(module, "Definition")
+      .def("resolved_toml", [](const model::Definition& definition) { return io::resolved_toml(definition); })
+      .def("set_cells", python::set_cells);
+  module.def("read_case", [](const std::string& file, const std::vector<std::string>& overrides) {
+    return io::read_case(file, overrides);
+  });
+  module.def("read_values", [](const py::dict& values, const std::vector<std::string>& overrides) {
+    return io::read_case_values(python::value_of(values, ""), ".", overrides);
+  });
+  module.def("calibrate", python::calibrate);
+  python::bind_simulation(module);
+}

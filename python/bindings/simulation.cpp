@@ -1,0 +1,130 @@
+#include "simulation.h"
+
+#include <pybind11/functional.h>
+#include <pybind11/stl.h>
+
+#include "driver/fields.h"
+#include "driver/run_simulation.h"
+#include "driver/simulation.h"
+#include "fields.h"
+#include "koshi/run.h"
+
+namespace koshi::python {
+
+namespace py = pybind11;
+using driver::Simulation;
+
+namespace {
+
+Communicator communicator(const std::optional<int>& handle) {
+  return handle ? Communicator::from_handle(*handle) : Communicator::world();
+}
+
+py::dict measured(const model::Model& model, const mechanics::Measurement& measurement) {
+  py::dict probes;
+  for (std::size_t p = 0; p < model.probes.size(); ++p)
+    probes[py::str(model.probes[p].definition.name)] =
+        py::array_t<double>(static_cast<py::ssize_t>(measurement.probes[p].size()), measurement.probes[p].data());
+  const mechanics::Balance& balance = measurement.balance;
+  return py::dict(py::arg("elastic_energy") = balance.elastic_energy,
+                  py::arg("kinetic_energy") = balance.kinetic_energy,
+                  py::arg("unbalanced_ratio") = balance.unbalanced_ratio(), py::arg("probes") = probes);
+}
+
+// Runs to the end of the analysis, with files where a directory is given.
+driver::Outcome run(Simulation& simulation, const driver::Observer& observer,
+                    const std::optional<std::string>& directory, const std::vector<std::string>& petsc_options) {
+  if (!directory) return simulation.run(observer, petsc_options);
+  driver::RunOptions options;
+  options.directory = *directory;
+  options.quiet = true;
+  options.petsc_options = petsc_options;
+  return driver::run_simulation(simulation, options, observer);
+}
+
+py::dict run_to_end(Simulation& simulation, const std::optional<std::function<bool()>>& poll,
+                    const std::optional<std::string>& directory,
+                    const std::optional<std::function<void(double, const std::string&)>>& progress,
+                    const std::vector<std::string>& petsc_options) {
+  driver::Observer observer;
+  // An interrupt (Ctrl-C) is seen between steps.
+  observer.poll = [&](model::State&) {
+    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+    return poll && (*poll)();
+  };
+  // Exceptions must not pass through a solver written in C: kept, and thrown once it has returned.
+  std::exception_ptr thrown;
+  if (progress)
+    observer.progress = [&](double part, const std::string& words) {
+      try {
+        if (!thrown) (*progress)(part, words);
+      } catch (...) {
+        thrown = std::current_exception();
+      }
+    };
+  const driver::Outcome outcome = run(simulation, observer, directory, petsc_options);
+  if (thrown) std::rethrow_exception(thrown);
+  if (!outcome.stopped) driver::require_rest(simulation.model(), outcome);
+  return py::dict(py::arg("steps") = outcome.steps, py::arg("time_step") = outcome.time_step,
+                  py::arg("iterations") = outcome.solution ? outcome.solution->iterations : 0,
+                  py::arg("stopped") = outcome.stopped, py::arg("seconds") = outcome.seconds,
+                  py::arg("measurement") = measured(simulation.model(), outcome.measurement));
+}
+
+py::array field(Simulation& simulation, const std::string& name) {
+  const model::Model& model = simulation.model();
+  const driver::FieldSet set({name}, model, simulation.state(), simulation.meter());
+  if (set.fields().size() != 1)
+    throw InputError("there is no field \"" + name + "\" here; take one of output.fields that the case asks for");
+  const io::FieldData& data = set.fields().front();
+  const Int3 box = data.on_cells ? owned_cells(model.lattice.grid, model.layout()) : model.layout().owned();
+  const py::array view =
+      view_of(*data.values, model.layout(), data.first_component + data.components, box, py::none(), true);
+  return view.attr("__getitem__")(py::slice(data.first_component, data.first_component + data.components, 1))
+      .attr("copy")();
+}
+
+}  // namespace
+
+void bind_simulation(py::module_& module) {
+  py::class_<Simulation> simulation(module, "Simulation");
+  simulation.def(py::init([](const model::Definition& definition, const std::optional<int>& handle) {
+    return std::make_unique<Simulation>(definition, communicator(handle));
+  }));
+
+  simulation.def("displacement", [](const py::object& self) {
+    auto& s = self.cast<Simulation&>();
+    const lattice::Layout& layout = s.model().layout();
+    return view_of(s.state().displacement, layout, s.model().components(), layout.owned(), self, true);
+  });
+  simulation.def("velocity", [](const py::object& self) {
+    auto& s = self.cast<Simulation&>();
+    const lattice::Layout& layout = s.model().layout();
+    return view_of(s.state().velocity, layout, s.model().components(), layout.owned(), self, true);
+  });
+  // The model is frozen: read-only views.
+  simulation.def("mass", [](const py::object& self) {
+    auto& s = self.cast<Simulation&>();
+    auto& inertia = const_cast<lattice::Field<double>&>(s.model().inertia);
+    return view_of(inertia, s.model().layout(), inertia.components(), s.model().layout().owned(), self, false);
+  });
+  simulation.def("cells", [](const py::object& self) {
+    auto& s = self.cast<Simulation&>();
+    auto& cell = const_cast<lattice::Field<std::uint8_t>&>(s.model().lattice.cell);
+    const Int3 box = owned_cells(s.model().lattice.grid, s.model().layout());
+    return view_of(cell, s.model().layout(), 1, box, self, false)[py::int_(0)].cast<py::array>();
+  });
+  simulation.def("coordinates", [](Simulation& s) { return coordinates(s.model().lattice.grid, s.model().layout()); });
+  simulation.def("field", field);
+
+  simulation.def("time", [](Simulation& s) { return s.state().time; });
+  simulation.def("steps", [](Simulation& s) { return s.state().step; });
+  simulation.def("time_step", &Simulation::time_step);
+  simulation.def("step", &Simulation::step);
+  simulation.def("run", run_to_end);
+  simulation.def("measure", [](Simulation& s) { return measured(s.model(), s.measure()); });
+  simulation.def("set_load_factor", &Simulation::set_load_factor);
+  simulation.def("set_boundary_factor", &Simulation::set_boundary_factor);
+}
+
+}  // namespace koshi::python

@@ -1,0 +1,50 @@
+"""Koshi: a lattice spring engine for elastic solids.
+
+Describe a case with the dataclasses below, or load one from a file, make a `Simulation` of it and run or step it::
+
+    import koshi
+
+    simulation = koshi.Simulation("case.toml")
+    result = simulation.run()
+    print(result.measurement.probes["tip"])
+"""
+
+from .calibration import calibrate
+from .case import (
+    Analysis,
+    Body,
+    Boundary,
+    Case,
+    InputError,
+    Lattice,
+    Load,
+    Material,
+    Output,
+    Probe,
+    Region,
+    RunError,
+    load,
+)
+from .simulation import Measurement, Result, Simulation, run
+from ._koshi import __version__
+
+__all__ = [
+    "Analysis",
+    "Body",
+    "Boundary",
+    "Case",
+    "InputError",
+    "Lattice",
+    "Load",
+    "Material",
+    "Measurement",
+    "Output",
+    "Probe",
+    "Region",
+    "Result",
+    "RunError",
+    "Simulation",
+    "calibrate",
+    "load",
+    "run",
+]

@@ -1,0 +1,277 @@
+"""What can be set: one dataclass per table of the input file, with the same names.
+
+A number is in SI units; text may carry a unit ("0.2 cm", "9.8 N"). ``None`` leaves a key out, and the input's default
+holds; `koshi schema` lists all keys with their defaults. What is wrong raises `InputError` when the case is used.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import tomllib
+from dataclasses import dataclass, field
+from typing import Literal, Mapping, Sequence, Union
+
+import numpy as np
+
+from . import _koshi
+
+Quantity = Union[float, str]
+Vector = Sequence[Quantity]
+Face = Literal["x-min", "x-max", "y-min", "y-max", "z-min", "z-max"]
+
+
+@dataclass
+class Lattice:
+    """Unit cell, spacing and springs."""
+
+    spacing: Quantity
+    """side d of a cell [m]"""
+    cell: Literal["cube-I", "cube-II", "cube-III"] | None = None
+    """default "cube-III" """
+    springs: Literal["shared", "plain"] | None = None
+    """springs belong to cells (default), or every bond carries its full stiffness"""
+    calibration: Literal["bending-exact", "isotropic", "paper"] | None = None
+    """default: bending-exact for shared Cube-III, isotropic for shared Cube-I and -II, paper for plain springs"""
+    kinematics: Literal["rotational", "least-squares"] | None = None
+    """three rotations per node (default), or the rotation fitted to each cell"""
+    equations: Sequence[str] | None = None
+    """calibration "paper": entries of C set equal to the elastic tensor"""
+    axes: str | None = None
+    """calibration "paper": which body axes are 1, 2, 3 of C"""
+
+
+@dataclass
+class Body:
+    """The box of cells: of one material, or cell by cell from an image."""
+
+    size: Vector | None = None
+    """edges of the box [m], multiples of the spacing; none with an image"""
+    material: str | None = None
+    """name of the material, or "void"; none with an image"""
+    image: str | os.PathLike | np.ndarray | None = None
+    """value of each cell: a file, or an array of whole numbers (nz, ny, nx)"""
+    materials: Mapping[int, str] | None = None
+    """material, or "void", of each value in the image"""
+    origin: Vector | None = None
+    """lower corner [m], default (0, 0, 0)"""
+    periodic: Sequence[bool] | None = None
+    """opposite faces across x, y, z are joined; default none"""
+
+
+@dataclass
+class Material:
+    """Isotropic elastic solid."""
+
+    youngs_modulus: Quantity
+    """E [Pa] > 0"""
+    poissons_ratio: float
+    """-1 < nu < 0.5"""
+    density: Quantity
+    """[kg/m^3] > 0"""
+
+
+@dataclass
+class Region:
+    """Cells whose centre lies inside a shape get another material; later regions win."""
+
+    shape: Literal["box", "sphere", "cylinder", "half-space", "stl"]
+    material: str
+    """a material's name, or "void" """
+    min: Vector | None = None
+    """box: lower corner [m]"""
+    max: Vector | None = None
+    """box: upper corner [m]"""
+    center: Vector | None = None
+    """sphere [m]"""
+    radius: Quantity | None = None
+    """sphere, cylinder [m]"""
+    start: Vector | None = None
+    """cylinder: one end of the axis [m]"""
+    end: Vector | None = None
+    """cylinder: other end of the axis [m]"""
+    point: Vector | None = None
+    """half-space: a point of its plane [m]"""
+    normal: Sequence[float] | None = None
+    """half-space: direction that points out of it"""
+    file: str | os.PathLike | None = None
+    """stl: a closed surface"""
+    scale: Quantity | None = None
+    """stl: length of the file's unit, default 1 m"""
+
+
+@dataclass
+class Boundary:
+    """Prescribed motion of the nodes of a face, box or point."""
+
+    name: str | None = None
+    face: Face | None = None
+    box: Mapping[Literal["min", "max"], Vector] | None = None
+    """nodes inside or on the border [m]"""
+    point: Vector | None = None
+    """the nearest node [m]"""
+    fix: Sequence[Literal["x", "y", "z", "rx", "ry", "rz"]] | None = None
+    """components held at zero"""
+    displacement: Mapping[str, Quantity] | None = None
+    """by component [m], [rad]"""
+    velocity: Mapping[str, Quantity] | None = None
+    """by component [m/s], [rad/s]"""
+    twist: Mapping[Literal["x", "y", "z"], Quantity] | None = None
+    """angle of a turn as a rigid body [rad]"""
+    center: Vector | None = None
+    """of the twist [m], default the mean of the nodes"""
+    ramp: Quantity | None = None
+    """time over which the motion rises from zero [s], default 0"""
+    history: Sequence[tuple[Quantity, float]] | None = None
+    """factor on the motion: pairs (time [s], factor)"""
+
+
+@dataclass
+class Load:
+    """Forces: exactly one of force, traction, pressure, acceleration."""
+
+    name: str | None = None
+    face: Face | None = None
+    box: Mapping[Literal["min", "max"], Vector] | None = None
+    point: Vector | None = None
+    force: Vector | None = None
+    """in total [N]"""
+    traction: Vector | None = None
+    """[Pa]"""
+    pressure: Quantity | None = None
+    """against the outward normal [Pa]"""
+    acceleration: Vector | None = None
+    """body force per mass [m/s^2], on the whole body"""
+    distribution: Literal["area", "nodes"] | None = None
+    """of the force, default "area" """
+    history: Sequence[tuple[Quantity, float]] | None = None
+    """factor on the load: pairs (time [s], factor)"""
+
+
+@dataclass
+class Analysis:
+    """What is computed."""
+
+    type: Literal["static", "quasi-static", "dynamic"] | None = None
+    """equilibrium solved directly (default), reached by damped stepping, or motion"""
+    tolerance: float | None = None
+    """static: relative residual; quasi-static: unbalanced-force ratio; default 1e-8"""
+    duration: Quantity | None = None
+    """[s], required for dynamic"""
+    time_step: Quantity | None = None
+    """[s], default "auto" """
+    allow_unstable_step: bool | None = None
+    safety: float | None = None
+    """ratio of the automatic step to the stable limit, default 0.9"""
+    damping: Mapping[str, Quantity] | None = None
+    """{"kind": "local", "factor": 0.8} (default of quasi-static), {"kind": "viscous", "rate": ...} or {"kind": "none"}"""
+    start_from: str | os.PathLike | None = None
+    """output directory of an earlier run whose displacements are the start"""
+
+
+@dataclass
+class Probe:
+    """A value reported by name."""
+
+    name: str
+    face: Face | None = None
+    box: Mapping[Literal["min", "max"], Vector] | None = None
+    point: Vector | None = None
+    quantity: Literal["displacement", "rotation", "velocity", "reaction", "stress", "strain"] | None = None
+    """default "displacement" """
+    reduce: Literal["mean", "area-mean", "sum", "max"] | None = None
+    """default: sum for reactions, else mean"""
+
+
+@dataclass
+class Output:
+    """What a run with an output directory writes."""
+
+    fields: Sequence[str] | None = None
+    """default ["displacement"] """
+    every: Quantity | None = None
+    """simulated time between samples of the fields [s], default the end only"""
+    history_every: Quantity | None = None
+    """simulated time between rows of history.csv [s]"""
+    checkpoint_every: Quantity | None = None
+    """simulated time between checkpoints [s]"""
+    checkpoint_every_wall: Quantity | None = None
+    """wall time between checkpoints [s]"""
+    report: bool | None = None
+    """write report.html at the end, default False"""
+
+
+@dataclass
+class Case:
+    """A whole input."""
+
+    lattice: Lattice
+    body: Body
+    material: dict[str, Material]
+    """by name"""
+    region: list[Region] = field(default_factory=list)
+    boundary: list[Boundary] = field(default_factory=list)
+    load: list[Load] = field(default_factory=list)
+    analysis: Analysis = field(default_factory=Analysis)
+    probe: list[Probe] = field(default_factory=list)
+    output: Output = field(default_factory=Output)
+    title: str | None = None
+
+    def to_toml(self) -> str:
+        """The whole input as TOML, every default written out, in SI units. Raises InputError."""
+        return _definition(self).resolved_toml()
+
+
+def load(file: str | os.PathLike, overrides: Sequence[str] = ()) -> Case:
+    """The case of an input file, in SI units with every default filled in.
+
+    overrides: "section.key=value", as for `koshi run --set`. Raises InputError with file, line and column.
+    """
+    values = tomllib.loads(_koshi.read_case(os.fspath(file), list(overrides)).resolved_toml())
+    tables = {"lattice": Lattice, "body": Body, "analysis": Analysis, "output": Output}
+    lists = {"region": Region, "boundary": Boundary, "load": Load, "probe": Probe}
+    parts: dict = {"material": {name: Material(**m) for name, m in values["material"].items()}}
+    parts |= {name: cls(**values[name]) for name, cls in tables.items()}
+    parts |= {name: [cls(**entry) for entry in values.get(name, [])] for name, cls in lists.items()}
+    if parts["body"].materials is not None:
+        parts["body"].materials = {int(value): name for value, name in parts["body"].materials.items()}
+    return Case(**parts, title=values.get("title"))
+
+
+def _plain(value):
+    """Dataclasses, arrays, paths and tuples as dict, list, text and numbers; what is None or empty is left out."""
+    if dataclasses.is_dataclass(value):
+        value = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
+    if isinstance(value, Mapping):
+        return {str(key): _plain(v) for key, v in value.items() if v is not None and not _is_empty(v)}
+    if isinstance(value, (np.ndarray, np.generic)):
+        return _plain(value.tolist())
+    if isinstance(value, (list, tuple)):
+        return [_plain(v) for v in value]
+    return os.fspath(value) if isinstance(value, os.PathLike) else value
+
+
+def _is_empty(value) -> bool:
+    return isinstance(value, (list, tuple, dict)) and len(value) == 0
+
+
+def _definition(case: Case | str | os.PathLike, overrides: Sequence[str] = ()) -> _koshi.Definition:
+    if isinstance(case, (str, os.PathLike)):
+        return _koshi.read_case(os.fspath(case), list(overrides))
+    image = case.body.image
+    if not isinstance(image, np.ndarray):
+        return _koshi.read_values(_plain(case), list(overrides))
+    if image.dtype.kind not in "biu" or image.ndim != 3:
+        raise InputError(
+            f"body.image: error: the array has the type {image.dtype} and the shape {image.shape}; expected whole "
+            "numbers or bool and three axes, [z][y][x]"
+        )
+    # The reader sees a file's name in place of the array.
+    named = dataclasses.replace(case, body=dataclasses.replace(case.body, image="array.npy"))
+    definition = _koshi.read_values(_plain(named), list(overrides))
+    definition.set_cells(np.ascontiguousarray(image, dtype=np.int64))
+    return definition
+
+
+InputError = _koshi.InputError
+RunError = _koshi.RunError

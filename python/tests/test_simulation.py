@@ -1,0 +1,140 @@
+"""Runs, steps, fields as views, loads that change."""
+
+import numpy as np
+import pytest
+
+import koshi
+from conftest import beam
+
+# The bar: k = E A / L = 1e9 Pa * 4e-6 m^2 / 4e-3 m = 1e6 N/m, so 4 N pull it by 4e-6 m; nu = 0: exactly.
+PULLED = 4e-6
+
+
+def test_run_reaches_the_bars_extension(case):
+    result = koshi.run(case)
+    assert result.measurement.probes["top"] == pytest.approx([0, 0, PULLED], rel=1e-6, abs=1e-12)
+    assert result.measurement.probes["support"] == pytest.approx([0, 0, -4], rel=1e-6, abs=1e-6)
+    # Energy F u / 2, and the same unbalanced ratio that ended the run.
+    assert result.measurement.elastic_energy == pytest.approx(0.5 * 4 * PULLED, rel=1e-6)
+    assert 0 <= result.measurement.unbalanced_ratio < 1e-9
+    assert result.steps > 0 and result.time_step > 0 and not result.stopped
+
+
+def test_fields_are_views(case):
+    simulation = koshi.Simulation(case)
+    u = simulation.displacement
+    assert u.shape == (3, 5, 3, 3) and u.dtype == np.float64
+    assert np.shares_memory(u, simulation.displacement)
+    x, y, z = simulation.coordinates
+    assert x == pytest.approx([0, 1e-3, 2e-3]) and z == pytest.approx(np.arange(5) * 1e-3)
+    # Uniform strain written through the view: energy E eps^2 V / 2 with eps = 1e-3, V = 16e-9 m^3.
+    u[2] = 1e-3 * z[:, None, None]
+    assert simulation.measure().elastic_energy == pytest.approx(0.5 * 1e9 * 1e-6 * 16e-9, rel=1e-12)
+    assert simulation.field("strain").shape == (6, 4, 2, 2)
+    assert simulation.field("strain")[2] == pytest.approx(np.full((4, 2, 2), 1e-3), rel=1e-12)
+    assert simulation.field("stress")[2] == pytest.approx(np.full((4, 2, 2), 1e6), rel=1e-12)
+    # Mass: 16e-9 m^3 * 2000 kg/m^3, read only, like the cells.
+    assert simulation.mass.sum() == pytest.approx(32e-6, rel=1e-12)
+    assert simulation.cells.shape == (4, 2, 2) and (simulation.cells == 1).all()
+    for frozen in (simulation.mass, simulation.cells):
+        with pytest.raises(ValueError):
+            frozen[...] = 0
+    # The view keeps what it looks at alive.
+    del simulation
+    assert u[2].max() == pytest.approx(4e-6)
+
+
+def test_velocity_written_by_the_user_moves_the_body():
+    case = beam(boundary=[], load=[], analysis=koshi.Analysis("dynamic", duration="1 ms"), probe=[])
+    simulation = koshi.Simulation(case)
+    simulation.velocity[0] = 2.0
+    simulation.step(10)
+    # Free flight: u = v t.
+    assert simulation.steps == 10
+    assert simulation.time == pytest.approx(10 * simulation.time_step, rel=1e-12)
+    assert simulation.displacement[0] == pytest.approx(np.full((5, 3, 3), 2 * simulation.time), rel=1e-9)
+    # 1/2 m v^2 with 32e-6 kg.
+    assert simulation.measure().kinetic_energy == pytest.approx(0.5 * 32e-6 * 4, rel=1e-9)
+
+
+def test_loads_and_motions_change_between_runs(case):
+    simulation = koshi.Simulation(case)
+    assert simulation.run().measurement.probes["top"][2] == pytest.approx(PULLED, rel=1e-6)
+    simulation.set_load_factor("pull", -0.5)
+    assert simulation.run().measurement.probes["top"][2] == pytest.approx(-0.5 * PULLED, rel=1e-6)
+    with pytest.raises(koshi.InputError, match='there is no load "pul"; did you mean "pull"'):
+        simulation.set_load_factor("pul", 1)
+
+    pushed = beam(load=[], boundary=[*case.boundary, koshi.Boundary("top", face="z-max", displacement={"z": 1e-6})])
+    simulation = koshi.Simulation(pushed)
+    assert simulation.run().measurement.probes["support"][2] == pytest.approx(-1, rel=1e-6)
+    simulation.set_boundary_factor("top", 3)
+    assert simulation.run().measurement.probes["support"][2] == pytest.approx(-3, rel=1e-6)
+
+
+def test_callback_sees_and_stops_the_run(case):
+    seen = []
+
+    def stop_at_40(simulation):
+        seen.append(simulation.steps)
+        return simulation.steps >= 40
+
+    result = koshi.run(case, callback=stop_at_40)
+    assert seen == [10, 20, 30, 40] and result.steps == 40 and result.stopped
+
+
+def test_exceptions_of_a_callback_come_through(case):
+    def fail(*_):
+        raise KeyError("mine")
+
+    with pytest.raises(KeyError, match="mine"):
+        koshi.run(case, callback=fail)
+    with pytest.raises(KeyError, match="mine"):
+        koshi.run(case, progress=fail)
+
+
+def test_failures_raise(case):
+    case.analysis = koshi.Analysis("quasi-static", tolerance=1e-12, duration="1 us")
+    with pytest.raises(koshi.RunError, match="not at rest after"):
+        koshi.run(case)
+    case.analysis = koshi.Analysis("dynamic", duration="1 ms", time_step="1 s")
+    with pytest.raises(koshi.InputError, match="analysis.time_step: error: time step 1 s is above the stable limit"):
+        koshi.run(case)
+
+
+def voxels(case):
+    image = np.full((4, 2, 2), 5)
+    image[:, 1, 1] = 0
+    image[3, 0, 0] = 9
+    case.material["soft"] = koshi.Material("0.5 GPa", 0.0, 1000)
+    case.body = koshi.Body(image=image, materials={0: "void", 5: "rock", 9: "soft"})
+    return image
+
+
+def test_voxel_image_from_an_array(case):
+    image = voxels(case)
+    simulation = koshi.Simulation(case)
+    assert (simulation.cells == np.select([image == 0, image == 5], [0, 1], 2)).all()
+    # Cells of 1e-9 m^3: 11 of 2000 kg/m^3, one of 1000 kg/m^3.
+    assert simulation.mass.sum() == pytest.approx(23e-6, rel=1e-12)
+    # Any layout and integer type means the same.
+    case.body.image = np.asfortranarray(image.astype(np.uint8))
+    assert (koshi.Simulation(case).cells == simulation.cells).all()
+
+
+def test_wrong_arrays_raise(case):
+    voxels(case)
+    case.body.materials = {0: "void", 5: "rock"}
+    with pytest.raises(koshi.InputError, match="body.materials: error: the image also has the value 9"):
+        koshi.Simulation(case)
+    case.body.image = np.ones((2, 2))
+    with pytest.raises(koshi.InputError, match=r"body.image: error: .*float64 and the shape \(2, 2\)"):
+        koshi.Simulation(case)
+
+
+def test_output_directory_holds_the_whole_input(case, tmp_path):
+    voxels(case)
+    result = koshi.run(case, out=tmp_path / "out")
+    assert (tmp_path / "out/summary.json").exists() and (tmp_path / "out/fields.pvd").exists()
+    again = koshi.run(tmp_path / "out/resolved.toml")
+    assert (again.measurement.probes["top"] == result.measurement.probes["top"]).all()

@@ -1,0 +1,50 @@
+// A simulation stepped by its owner, who may change loads and motions in between.
+#include <algorithm>
+
+#include "base/suggest.h"
+#include "driver/simulation.h"
+
+namespace koshi::driver {
+namespace {
+
+// Index of the table with this name; `kind` is its section of the input.
+template <class D>
+std::size_t index_of(const std::vector<D>& tables, const std::string& name, const std::string& kind) {
+  const auto found = std::find_if(tables.begin(), tables.end(), [&](const D& table) { return table.name == name; });
+  if (found != tables.end()) return static_cast<std::size_t>(found - tables.begin());
+  std::vector<std::string> names;
+  for (const D& table : tables) names.push_back(table.name);
+  throw InputError("there is no " + kind + " \"" + name + "\"; " +
+                   (names.empty() ? "the case has none" : suggestion(name, names)));
+}
+
+}  // namespace
+
+double Simulation::time_step() {
+  if (!stable_) stable_ = mechanics::stable_step(*model_, *kernel_);
+  return choose_step(*stable_);
+}
+
+void Simulation::step(std::int64_t count) {
+  if (!stepper_) stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, *state_, time_step());
+  for (std::int64_t s = 0; s < count; ++s) stepper_->step();
+  if (count > 0) lag_ = time_step();
+}
+
+mechanics::Measurement Simulation::measure() { return meter_->measure(*state_, lag_); }
+
+void Simulation::set_load_factor(const std::string& name, double value) {
+  model::History history{{0, value}};
+  const std::size_t load = index_of(model_->definition.loads, name, "load");
+  model_->definition.loads[load].history = history;
+  model_->loads[load].history = history;
+}
+
+void Simulation::set_boundary_factor(const std::string& name, double value) {
+  model::BoundaryDefinition& boundary =
+      model_->definition.boundaries[index_of(model_->definition.boundaries, name, "boundary")];
+  boundary.ramp = 0;
+  boundary.history = {{0, value}};
+}
+
+}  // namespace koshi::driver
