@@ -24,6 +24,8 @@ class Communicator {
  public:
   /// All ranks of the program; starts the message-passing layer if nobody has.
   static Communicator world();
+  /// This rank alone.
+  static Communicator self();
   /// From a Fortran handle (MPI_Comm_c2f), e.g. that of mpi4py. The caller keeps ownership.
   static Communicator from_handle(int fortran_handle);
 
@@ -45,6 +47,8 @@ class Communicator {
   void broadcast(std::span<double> values, int root = 0) const;
   /// Concatenation of every rank's values in rank order; empty on all ranks but the root.
   std::string gather(const std::string& bytes) const;
+  /// The same, on all ranks.
+  std::string all_gather(const std::string& bytes) const;
 
  private:
   explicit Communicator(int handle) : handle_(handle) {}

@@ -25,6 +25,11 @@ Communicator Communicator::world() {
   return Communicator(MPI_Comm_c2f(MPI_COMM_WORLD));
 }
 
+Communicator Communicator::self() {
+  (void)world();
+  return Communicator(MPI_Comm_c2f(MPI_COMM_SELF));
+}
+
 Communicator Communicator::from_handle(int fortran_handle) { return Communicator(fortran_handle); }
 
 int Communicator::rank() const {
@@ -79,6 +84,17 @@ std::string Communicator::gather(const std::string& bytes) const {
   for (std::size_t r = 0; r < lengths.size(); ++r) offsets[r + 1] = offsets[r] + lengths[r];
   std::string all(is_root() ? static_cast<std::size_t>(offsets.back()) : 0, '\0');
   MPI_Gatherv(bytes.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(), MPI_CHAR, 0, mpi(handle_));
+  return all;
+}
+
+std::string Communicator::all_gather(const std::string& bytes) const {
+  const int length = static_cast<int>(bytes.size());
+  std::vector<int> lengths(static_cast<std::size_t>(size()));
+  MPI_Allgather(&length, 1, MPI_INT, lengths.data(), 1, MPI_INT, mpi(handle_));
+  std::vector<int> offsets(lengths.size() + 1, 0);
+  for (std::size_t r = 0; r < lengths.size(); ++r) offsets[r + 1] = offsets[r] + lengths[r];
+  std::string all(static_cast<std::size_t>(offsets.back()), '\0');
+  MPI_Allgatherv(bytes.data(), length, MPI_CHAR, all.data(), lengths.data(), offsets.data(), MPI_CHAR, mpi(handle_));
   return all;
 }
 

@@ -24,16 +24,16 @@ struct Link {
 
 int tag(const std::array<int, 3>& s) { return s[0] + 1 + 3 * (s[1] + 1) + 9 * (s[2] + 1); }
 
-// Copies the rows of a box between a field and a buffer; `to_field` says which way.
-template <bool to_field>
-void copy_box(const Layout& layout, const Int3& lo, const Int3& hi, std::byte* field, std::byte* buffer, int components,
-              std::int64_t stride, std::size_t element) {
-  const std::size_t row = static_cast<std::size_t>(hi[0] - lo[0]) * element;
+// Copies the rows of a box between node values and a buffer; `to_values` says which way. `bytes`: distances in memory.
+template <bool to_values>
+void copy_box(const Int3& lo, const Int3& hi, std::byte* origin, std::byte* buffer, int components,
+              const Halo::Strides& bytes, std::int64_t element) {
+  const std::size_t row = static_cast<std::size_t>((hi[0] - lo[0]) * element);
   for (int c = 0; c < components; ++c)
     for (std::int64_t k = lo[2]; k < hi[2]; ++k)
       for (std::int64_t j = lo[1]; j < hi[1]; ++j, buffer += row) {
-        std::byte* at = field + c * stride + layout.index(lo[0], j, k) * static_cast<std::int64_t>(element);
-        if constexpr (to_field)
+        std::byte* at = origin + c * bytes.component + k * bytes.z + j * bytes.y + lo[0] * element;
+        if constexpr (to_values)
           std::memcpy(at, buffer, row);
         else
           std::memcpy(buffer, at, row);
@@ -47,11 +47,11 @@ struct Halo::Implementation {
   Communicator communicator;
   std::vector<Link> links;
   std::vector<MPI_Request> requests;
-  // The field on its way.
-  std::byte* data = nullptr;
+  // The values on their way.
+  std::byte* origin = nullptr;
   int components = 0;
-  std::int64_t stride = 0;
-  std::size_t element = 0;
+  Strides bytes{};
+  std::int64_t element = 0;
 };
 
 Halo::Halo(const Grid& grid, const Partition& partition, const Communicator& communicator)
@@ -94,23 +94,23 @@ bool Halo::active() const { return !self_->links.empty(); }
 const Layout& Halo::layout() const { return self_->layout; }
 const Communicator& Halo::communicator() const { return self_->communicator; }
 
-void Halo::begin_bytes(std::byte* data, int components, std::int64_t stride, std::size_t element) const {
+void Halo::begin_bytes(std::byte* origin, int components, const Strides& strides, std::int64_t element) const {
   Implementation& h = *self_;
-  h.data = data;
+  h.origin = origin;
   h.components = components;
-  h.stride = stride;
+  h.bytes = strides;
   h.element = element;
   const MPI_Comm comm = MPI_Comm_f2c(h.communicator.handle());
   h.requests.clear();
   for (Link& link : h.links) {
-    const std::size_t bytes = link.node_count() * static_cast<std::size_t>(components) * element;
+    const std::size_t bytes = link.node_count() * static_cast<std::size_t>(components * element);
     link.send.resize(bytes);
     link.receive.resize(bytes);
     MPI_Irecv(link.receive.data(), static_cast<int>(bytes), MPI_BYTE, link.rank, link.receive_tag, comm,
               &h.requests.emplace_back());
   }
   for (Link& link : h.links) {
-    copy_box<false>(h.layout, link.send_lo, link.send_hi, data, link.send.data(), components, stride, element);
+    copy_box<false>(link.send_lo, link.send_hi, origin, link.send.data(), components, strides, element);
     MPI_Isend(link.send.data(), static_cast<int>(link.send.size()), MPI_BYTE, link.rank, link.send_tag, comm,
               &h.requests.emplace_back());
   }
@@ -120,8 +120,7 @@ void Halo::end() const {
   Implementation& h = *self_;
   MPI_Waitall(static_cast<int>(h.requests.size()), h.requests.data(), MPI_STATUSES_IGNORE);
   for (Link& link : h.links)
-    copy_box<true>(h.layout, link.receive_lo, link.receive_hi, h.data, link.receive.data(), h.components, h.stride,
-                   h.element);
+    copy_box<true>(link.receive_lo, link.receive_hi, h.origin, link.receive.data(), h.components, h.bytes, h.element);
 }
 
 }  // namespace koshi::lattice

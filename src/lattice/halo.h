@@ -23,8 +23,19 @@ class Halo {
   /// Starts sending the border nodes of `field`; the field's owned nodes must not change before end().
   template <class T>
   void begin(Field<T>& field) const {
-    begin_bytes(reinterpret_cast<std::byte*>(field.data()), field.components(),
-                field.stride() * static_cast<std::int64_t>(sizeof(T)), sizeof(T));
+    begin(field.data() + layout().index(0, 0, 0), field.components(),
+          {field.stride(), layout().pitch(), layout().plane()});
+  }
+  /// Distances in memory, in elements: to the next component, the next node in y, the next node in z.
+  struct Strides {
+    std::int64_t component, y, z;
+  };
+  /// The same for values stored otherwise; `origin` is component 0 of node (0, 0, 0).
+  template <class T>
+  void begin(T* origin, int components, const Strides& strides) const {
+    constexpr std::int64_t element = sizeof(T);
+    begin_bytes(reinterpret_cast<std::byte*>(origin), components,
+                {strides.component * element, strides.y * element, strides.z * element}, element);
   }
   /// Waits for the ghosts of the field given to begin().
   void end() const;
@@ -41,7 +52,7 @@ class Halo {
   const Communicator& communicator() const;
 
  private:
-  void begin_bytes(std::byte* data, int components, std::int64_t stride, std::size_t element) const;
+  void begin_bytes(std::byte* origin, int components, const Strides& bytes, std::int64_t element) const;
   struct Implementation;
   std::unique_ptr<Implementation> self_;
 };

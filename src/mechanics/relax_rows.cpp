@@ -1,0 +1,103 @@
+// Compiled once per instruction set with KOSHI_ISA set to its name.
+#include "mechanics/relax_rows.h"
+
+#include "mechanics/vector64.h"
+
+namespace koshi::mechanics::KOSHI_ISA {
+namespace {
+
+using V = Vector<float>::type;
+
+// z = B r for the nodes of group g.
+template <int components>
+KOSHI_INLINE void apply_blocks(const RelaxRow& row, std::int64_t g, const V (&r)[6], V (&z)[6]) {
+  const std::int64_t block = row.block[g];
+  if (block < 0) {
+    const float* const inverse = row.uniform + 2 * ~block;
+    for (int a = 0; a < components; ++a) z[a] = inverse[a / 3] * r[a];
+    return;
+  }
+  const float* entry = row.blocks + components * (components + 1) / 2 * block_width * block;
+  for (int a = 0; a < components; ++a) {
+    z[a] = V{};
+    for (int b = 0; b <= a; ++b, entry += block_width) {
+      const V e = load(entry);
+      z[a] += e * r[b];
+      if (b < a) z[b] += e * r[a];
+    }
+  }
+}
+
+template <int components>
+void relax_components(const RelaxRow& row, float p, float q, float c) {
+  for (std::int64_t i = 0; i < row.count; i += block_width) {
+    V r[6], z[6];
+    for (int a = 0; a < components; ++a) {
+      float* const force = row.force + a * row.force_pitch + i;
+      r[a] = load(row.b + a * row.pitch + i) + load(force);
+      store(force, V{});
+    }
+    apply_blocks<components>(row, i / block_width, r, z);
+    for (int a = 0; a < components; ++a) {
+      const std::int64_t at = a * row.pitch + i;
+      store(row.y + at, p * load(row.x + at) + q * load(row.y + at) + c * z[a]);
+    }
+  }
+}
+
+template <int components>
+void relax_zero_components(const RelaxRow& row, float c) {
+  for (std::int64_t i = 0; i < row.count; i += block_width) {
+    V r[6], z[6];
+    for (int a = 0; a < components; ++a) r[a] = load(row.b + a * row.pitch + i);
+    apply_blocks<components>(row, i / block_width, r, z);
+    for (int a = 0; a < components; ++a) store(row.y + a * row.pitch + i, c * z[a]);
+  }
+}
+
+void relax(const RelaxRow& row, int components, float p, float q, float c) {
+  components == 6 ? relax_components<6>(row, p, q, c) : relax_components<3>(row, p, q, c);
+}
+
+void relax_zero(const RelaxRow& row, int components, float c) {
+  components == 6 ? relax_zero_components<6>(row, c) : relax_zero_components<3>(row, c);
+}
+
+void residual(const RelaxRow& row, int components) {
+  for (int a = 0; a < components; ++a)
+    for (std::int64_t i = 0; i < row.count; i += block_width) {
+      float* const force = row.force + a * row.force_pitch + i;
+      store(row.y + a * row.pitch + i, load(row.b + a * row.pitch + i) + load(force));
+      store(force, V{});
+    }
+}
+
+void combine(float* to, const float* const* from, const float* weight, int rows, std::int64_t count) {
+  for (std::int64_t i = -1; i < count; i += width<float>) {
+    V sum = weight[0] * load(from[0] + i);
+    for (int r = 1; r < rows; ++r) sum += weight[r] * load(from[r] + i);
+    store(to + i, sum);
+  }
+}
+
+void prolong(float* fine, const float* coarse, float scale, std::int64_t count) {
+  const std::int64_t pairs = count / 2;
+#pragma GCC ivdep
+  for (std::int64_t I = 0; I < pairs; ++I) {
+    fine[2 * I] += scale * coarse[I];
+    fine[2 * I + 1] += 0.5f * scale * (coarse[I] + coarse[I + 1]);
+  }
+  if (count % 2 != 0) fine[count - 1] += scale * coarse[pairs];
+}
+
+void restrict_(float* coarse, const float* fine, float scale, std::int64_t count) {
+#pragma GCC ivdep
+  for (std::int64_t I = 0; I < count; ++I)
+    coarse[I] = scale * (fine[2 * I] + 0.5f * (fine[2 * I - 1] + fine[2 * I + 1]));
+}
+
+}  // namespace
+
+extern const RelaxKernels relax_kernels{relax, relax_zero, residual, combine, prolong, restrict_};
+
+}  // namespace koshi::mechanics::KOSHI_ISA

@@ -1,0 +1,111 @@
+#include "statics/equilibrium.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "base/collective.h"
+#include "lattice/halo.h"
+#include "mechanics/loads.h"
+
+namespace koshi::statics {
+
+Equilibrium::Equilibrium(const model::Model& model, double t, lattice::Field<double>& work)
+    : model_(model),
+      components_(model.components()),
+      node_count_(model.layout().owned_count()),
+      t_(t),
+      half_d_(0.5 * model.lattice.grid.d),
+      work_(work),
+      kernel_(model.lattice) {
+  const auto& boundaries = model.definition.boundaries;
+  collectively(model.communicator, [&] {
+    for (const model::PrescribedMotion& motion : model.motions)
+      if (motion.is_velocity && motion.value != 0)
+        throw InputError(model.definition.places.find(fmt::format("boundary[{}].velocity", motion.boundary)),
+                         fmt::format("boundary \"{}\" prescribes a velocity, but a static analysis has no time; "
+                                     "prescribe a displacement",
+                                     boundaries[static_cast<std::size_t>(motion.boundary)].name));
+  });
+
+  // Motions are sorted by node, as the rows are.
+  auto motion = model.motions.begin();
+  const lattice::Layout& layout = model.layout();
+  std::int64_t number = 0;
+  lattice::for_each_owned(layout, [&](auto i, auto j, auto k, auto n) {
+    FixedNode fixed{{i, j, k}, 0};
+    for (; motion != model.motions.end() && motion->node == n; ++motion) {
+      fixed.mask |= static_cast<std::uint8_t>(1 << motion->component);
+      const double factor = model::factor(boundaries[static_cast<std::size_t>(motion->boundary)], t);
+      prescribed_.push_back({number + motion->component * node_count_, n, motion->component, factor * motion->value});
+    }
+    if (fixed.mask != 0) fixed_.push_back(fixed);
+    ++number;
+  });
+}
+
+// Calls use(unknown of component 0 of node i = 0, node i = 0, j, k) for every row of owned nodes.
+template <class F>
+void Equilibrium::for_each_row(F&& use) const {
+  const lattice::Layout& layout = model_.layout();
+  const Int3& owned = layout.owned();
+  for (std::int64_t k = 0; k < owned[2]; ++k)
+    for (std::int64_t j = 0; j < owned[1]; ++j) use(owned[0] * (j + owned[1] * k), layout.index(0, j, k), j, k);
+}
+
+void Equilibrium::to_field(const double* x, lattice::Field<double>& field) const {
+  const std::int64_t count = model_.layout().owned()[0];
+  for_each_row([&](std::int64_t unknown, std::int64_t node, auto, auto) {
+    for (int c = 0; c < components_; ++c) {
+      const double factor = 1 / scale(c);
+      const double* const from = x + c * node_count_ + unknown;
+      double* const to = field.component(c) + node;
+      for (std::int64_t i = 0; i < count; ++i) to[i] = factor * from[i];
+    }
+  });
+}
+
+void Equilibrium::right_hand_side(double* b) {
+  const std::int64_t count = model_.layout().owned()[0];
+  work_.zero();
+  for (const Prescribed& p : prescribed_) work_.component(p.component)[p.node] = p.value;
+  model_.lattice.halo->exchange(work_);
+  mechanics::LoadRows loads(model_);
+  loads.set_time(t_);
+  for_each_row([&](std::int64_t unknown, std::int64_t, std::int64_t j, std::int64_t k) {
+    double* const* force = kernel_.row(work_, j, k);
+    loads.add(j, k, force);
+    for (int c = 0; c < components_; ++c)
+      for (std::int64_t i = 0; i < count; ++i) b[c * node_count_ + unknown + i] = force[c][i] / scale(c);
+  });
+  for (const Prescribed& p : prescribed_) b[p.unknown] = 0;
+}
+
+void Equilibrium::apply(const double* x, double* y) {
+  to_field(x, work_);
+  for (const Prescribed& p : prescribed_) work_.component(p.component)[p.node] = 0;
+  model_.lattice.halo->exchange(work_);
+  const std::int64_t count = model_.layout().owned()[0];
+  for_each_row([&](std::int64_t unknown, std::int64_t, std::int64_t j, std::int64_t k) {
+    const double* const* force = kernel_.row(work_, j, k);
+    for (int c = 0; c < components_; ++c) {
+      const double factor = -1 / scale(c);
+      double* const to = y + c * node_count_ + unknown;
+      for (std::int64_t i = 0; i < count; ++i) to[i] = factor * force[c][i];
+    }
+  });
+  for (const Prescribed& p : prescribed_) y[p.unknown] = x[p.unknown];
+}
+
+void Equilibrium::fill(const double* x, lattice::Field<double>& displacement) const {
+  displacement.zero();
+  to_field(x, displacement);
+  const double* const mass = model_.inertia.component(0);
+  lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) {
+    if (mass[n] > 0) return;
+    for (int c = 0; c < components_; ++c) displacement.component(c)[n] = 0;
+  });
+  for (const Prescribed& p : prescribed_) displacement.component(p.component)[p.node] = p.value;
+}
+
+}  // namespace koshi::statics

@@ -1,0 +1,53 @@
+// The equations of equilibrium K x = b on one rank's nodes.
+#pragma once
+
+#include <vector>
+
+#include "koshi/model.h"
+#include "mechanics/force_kernel.h"
+#include "statics/fixed_nodes.h"
+
+namespace koshi::statics {
+
+/// Unknowns of equilibrium: all components of all owned nodes, component by component, x fastest, without ghosts. So
+/// that all have one unit, the rotations w of nodes are measured as rho = (d/2) w [m], their moments as M / (d/2) [N].
+/// Fixed components and nodes without a cell keep their place with a value of zero.
+class Equilibrium {
+ public:
+  /// `t`: time [s] at which loads and prescribed motions are taken. `work` is memory for one field. Throws InputError
+  /// for a prescribed velocity (collective).
+  Equilibrium(const model::Model& model, double t, lattice::Field<double>& work);
+
+  std::int64_t size() const { return node_count_ * components_; }
+  /// Loads, and forces from prescribed displacements, on free components (collective).
+  void right_hand_side(double* b);
+  /// y = P K P x + (I - P) x, P the projection on free components (collective).
+  void apply(const double* x, double* y);
+  /// Displacements and rotations of a solution, with the prescribed ones.
+  void fill(const double* x, lattice::Field<double>& displacement) const;
+
+  const FixedNodes& fixed() const { return fixed_; }
+
+ private:
+  void to_field(const double* x, lattice::Field<double>& field) const;
+  template <class F>
+  void for_each_row(F&& use) const;
+  // Unknowns per unit of a component: 1, or d/2 for rotations.
+  double scale(int component) const { return component < 3 ? 1 : half_d_; }
+
+  const model::Model& model_;
+  int components_;
+  std::int64_t node_count_;
+  double t_, half_d_;
+  lattice::Field<double>& work_;
+  mechanics::ForceKernel<double> kernel_;
+  FixedNodes fixed_;
+  struct Prescribed {
+    std::int64_t unknown, node;
+    int component;
+    double value;
+  };
+  std::vector<Prescribed> prescribed_;
+};
+
+}  // namespace koshi::statics

@@ -1,0 +1,28 @@
+// Components of nodes that do not move.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "statics/row_field.h"
+
+namespace koshi::statics {
+
+struct FixedNode {
+  Int3 node{};            ///< local indices
+  std::uint8_t mask = 0;  ///< bit c: component c is fixed
+};
+
+/// In memory order.
+using FixedNodes = std::vector<FixedNode>;
+
+/// On the next coarser level a component is fixed where it is fixed on one of the eight fine nodes 2 I + {0, 1}^3. A
+/// fixed face between two coarse planes thus moves by one fine cell, and a single fixed node stays a single node. (Only
+/// coincident nodes: the coarse body would come loose. All nodes nearby: a fixed point would grow into a clamped
+/// block.)
+FixedNodes coarsened(const FixedNodes& fine);
+
+/// Sets the fixed components to zero.
+void clear_fixed(const FixedNodes& fixed, RowField<float>& field);
+
+}  // namespace koshi::statics

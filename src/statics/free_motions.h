@@ -1,0 +1,53 @@
+// Rigid-body motions that nothing holds, part by part.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "statics/equilibrium.h"
+#include "statics/parts.h"
+
+namespace koshi::statics {
+
+/// The rigid-body motions of each part that the prescribed components leave free. The stiffness cannot resist them: the
+/// right-hand side must not push along them, and the solution is made free of them.
+class FreeMotions {
+ public:
+  /// Finds them (collective).
+  FreeMotions(const model::Model& model, const FixedNodes& fixed);
+
+  /// Number of free motions of all parts.
+  int count() const;
+  /// Throws InputError, naming part and motion, when the right-hand side does work on a free motion (collective).
+  void require_balance(const double* b) const;
+  /// Takes the free motions out of a vector of unknowns (collective).
+  void project(double* x) const;
+  /// What is free, in words; empty when nothing is.
+  std::string description() const;
+
+ private:
+  /// Motions of one part about its centre: columns of three translations and three rotations, lengths in cells,
+  /// orthonormal as vectors of unknowns (Equilibrium, divided by d).
+  struct FreePart {
+    std::int32_t part;
+    Vec3 centre;  ///< [cells]
+    Eigen::MatrixXd motions;
+  };
+  using Sums = std::vector<Eigen::Matrix<double, 6, 1>>;
+  /// Work of `x` on the six motions of each free part; with `absolute`, of the absolute values of its terms.
+  Sums work(const double* x, bool absolute) const;
+  template <class F>
+  void for_each_free_node(F&& use) const;
+  std::string title(std::int32_t part) const;
+  static std::string in_words(const Eigen::MatrixXd& motions);
+
+  const model::Model& model_;
+  int components_;
+  Parts parts_;
+  std::vector<FreePart> free_;
+  std::vector<std::int32_t> free_of_node_;  ///< by owned node: index into free_, or -1; empty when nothing is free
+};
+
+}  // namespace koshi::statics

@@ -1,0 +1,174 @@
+#include "statics/level.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace koshi::statics {
+
+bool LevelGrid::can_coarsen() const {
+  for (int a = 0; a < 3; ++a) {
+    if (grid.periodic[a] && grid.cells[a] % 2 != 0) return false;
+    const auto& borders = partition->borders[a];
+    for (std::size_t p = 1; p + 1 < borders.size(); ++p)
+      if (borders[p] % 2 != 0) return false;
+  }
+  return true;
+}
+
+LevelGrid LevelGrid::coarsened() const {
+  LevelGrid coarse;
+  coarse.grid = grid;
+  coarse.grid.d *= 2;
+  auto merged = std::make_shared<lattice::Partition>(*partition);
+  for (int a = 0; a < 3; ++a) {
+    coarse.grid.cells[a] = (grid.cells[a] + 1) / 2;
+    for (std::int64_t& border : merged->borders[a]) border /= 2;
+    merged->borders[a].back() = coarse.grid.nodes()[a];
+  }
+  coarse.halo = std::make_shared<const lattice::Halo>(coarse.grid, *merged, halo->communicator());
+  coarse.partition = std::move(merged);
+  return coarse;
+}
+
+RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& coarse) {
+  const Int3 &fine = constants.owned(), &owned = coarse.owned();
+  RowField<float> result(owned, constants.components());
+  for (std::int64_t k = 0; k < owned[2]; ++k)
+    for (std::int64_t j = 0; j < owned[1]; ++j)
+      for (int q = 0; q < constants.components(); ++q) {
+        float* const to = result.row(j, k) + q * result.pitch();
+        for (int r = 0; r < 4; ++r) {
+          const std::int64_t fine_j = 2 * j + (r & 1), fine_k = 2 * k + (r >> 1);
+          if (fine_j >= fine[1] || fine_k >= fine[2]) continue;
+          const float* const from = constants.row(fine_j, fine_k) + q * constants.pitch();
+          for (std::int64_t i = 0; i < owned[0]; ++i) {
+            to[i] += 0.25f * from[2 * i];
+            if (2 * i + 1 < fine[0]) to[i] += 0.25f * from[2 * i + 1];
+          }
+        }
+      }
+  result.exchange(*coarse.halo);
+  return result;
+}
+
+Level::Level(LevelGrid grid, int components, const RowField<float>& constants, FixedNodes fixed)
+    : b(grid.owned(), components),
+      x(grid.owned(), components),
+      grid_(std::move(grid)),
+      components_(components),
+      fixed_(std::move(fixed)),
+      springs_(constants),
+      blocks_(springs_, fixed_, components),
+      y_(grid_.owned(), components),
+      force_({grid_.owned()[0], grid_.owned()[1], 0}, components),
+      line_({grid_.owned()[0] + 1, 0, 0}, 1) {}
+
+mechanics::RelaxRow Level::relax_row(std::int64_t j, std::int64_t k) {
+  return {b.row(j, k),    x.row(j, k),       y_.row(j, k),      b.pitch(),        force_.row(j, (k & 1) - 1),
+          force_.pitch(), blocks_.row(j, k), blocks_.uniform(), blocks_.blocks(), grid_.owned()[0]};
+}
+
+template <class F>
+void Level::for_each_row(F&& use) {
+  const auto& kernels = mechanics::cell_kernels<float>();
+  const auto forces = components_ == 6 ? kernels.rotational : kernels.least_squares;
+  const Int3& owned = grid_.owned();
+  x.exchange(*grid_.halo);
+  force_.zero();
+  mechanics::CellRow<float> cells{nullptr, springs_.pitch(), {}, x.pitch(), {}, force_.pitch()};
+  for (std::int64_t k = -1; k < owned[2]; ++k)
+    for (std::int64_t j = -1; j < owned[1]; ++j) {
+      // The row of cells (j, k) is the last one that node row (j, k) waits for.
+      const std::int32_t row = springs_.row(j, k);
+      const auto [first, last] = springs_.span(row);
+      if (first < last) {
+        cells.constants = springs_.constants(row);
+        for (int r = 0; r < 4; ++r) {
+          const std::int64_t node_j = j + (r & 1), node_k = k + (r >> 1);
+          cells.u[r] = x.row(node_j, node_k);
+          cells.force[r] = force_.row(node_j, (node_k & 1) - 1);
+        }
+        forces(cells, first, last);
+      }
+      if (j >= 0 && k >= 0 && blocks_.row(j, k) != nullptr) use(j, k, relax_row(j, k));
+      // Rows of ghosts belong to others.
+      if (k < 0) std::memset(force_.row(j, (k & 1) - 1), 0, static_cast<std::size_t>(force_.pitch() * components_) * 4);
+    }
+}
+
+void Level::relax(int degree, double bound, bool from_zero) {
+  const auto& kernels = mechanics::relax_kernels();
+  const auto c = [&](int step) { return static_cast<float>((8 * step - 4) / ((2 * step + 1) * bound)); };
+  for (int step = 1; step <= degree; ++step) {
+    if (step == 1 && from_zero) {
+      for (std::int64_t k = 0; k < grid_.owned()[2]; ++k)
+        for (std::int64_t j = 0; j < grid_.owned()[1]; ++j)
+          if (blocks_.row(j, k) != nullptr) kernels.relax_zero(relax_row(j, k), components_, c(1));
+    } else {
+      // y holds the step before; before the first there is none, or x = 0.
+      const float a = static_cast<float>(2 * step - 3) / static_cast<float>(2 * step + 1);
+      const float p = step == 1 ? 1 : 1 + a;
+      const float q = step == 1 || (step == 2 && from_zero) ? 0 : -a;
+      for_each_row([&](std::int64_t, std::int64_t, const mechanics::RelaxRow& row) {
+        kernels.relax(row, components_, p, q, c(step));
+      });
+    }
+    std::swap(x, y_);
+  }
+}
+
+void Level::restrict_residual(Level& coarse) {
+  const auto& kernels = mechanics::relax_kernels();
+  for_each_row([&](std::int64_t, std::int64_t, const mechanics::RelaxRow& row) { kernels.residual(row, components_); });
+  clear_fixed(fixed_, y_);
+  y_.exchange(*grid_.halo);
+
+  const Int3 &fine = grid_.owned(), &owned = coarse.grid_.owned();
+  float* const line = line_.row(0, 0);
+  for (std::int64_t K = 0; K < owned[2]; ++K)
+    for (std::int64_t J = 0; J < owned[1]; ++J) {
+      // The up to nine rows around the coarse one; nodes beyond the ghosts do not exist.
+      std::array<const float*, 9> rows;
+      std::array<float, 9> weights;
+      int count = 0;
+      for (std::int64_t k = 2 * K - 1; k <= std::min(2 * K + 1, fine[2]); ++k)
+        for (std::int64_t j = 2 * J - 1; j <= std::min(2 * J + 1, fine[1]); ++j) {
+          rows[static_cast<std::size_t>(count)] = y_.row(j, k);
+          weights[static_cast<std::size_t>(count++)] = (j == 2 * J ? 1.0f : 0.5f) * (k == 2 * K ? 1.0f : 0.5f);
+        }
+      for (int c = 0; c < components_; ++c) {
+        kernels.combine(line, rows.data(), weights.data(), count, fine[0] + 1);
+        line[fine[0] + 1] = 0;
+        kernels.restrict_(coarse.b.row(J, K) + c * coarse.b.pitch(), line, c < 3 ? 1.0f : 0.5f, owned[0]);
+        for (int r = 0; r < count; ++r) rows[static_cast<std::size_t>(r)] += y_.pitch();
+      }
+    }
+  clear_fixed(coarse.fixed_, coarse.b);
+}
+
+void Level::add_correction(Level& coarse) {
+  const auto& kernels = mechanics::relax_kernels();
+  RowField<float>& e = coarse.x;
+  e.exchange(*coarse.grid_.halo);
+  float* const line = line_.row(0, 0);
+  for (std::int64_t k = 0; k < grid_.owned()[2]; ++k)
+    for (std::int64_t j = 0; j < grid_.owned()[1]; ++j) {
+      if (blocks_.row(j, k) == nullptr) continue;
+      // The mean of the one, two or four coarse rows around the fine one.
+      std::array<const float*, 4> rows;
+      int count = 0;
+      for (std::int64_t K = k / 2; K <= (k + 1) / 2; ++K)
+        for (std::int64_t J = j / 2; J <= (j + 1) / 2; ++J) rows[static_cast<std::size_t>(count++)] = e.row(J, K);
+      std::array<float, 4> weights;
+      weights.fill(1.0f / static_cast<float>(count));
+      for (int c = 0; c < components_; ++c) {
+        kernels.combine(line, rows.data(), weights.data(), count, coarse.grid_.owned()[0] + 1);
+        kernels.prolong(x.row(j, k) + c * x.pitch(), line, c < 3 ? 1.0f : 0.5f, grid_.owned()[0]);
+        for (int r = 0; r < count; ++r) rows[static_cast<std::size_t>(r)] += e.pitch();
+      }
+    }
+  clear_fixed(fixed_, x);
+}
+
+}  // namespace koshi::statics

@@ -1,0 +1,71 @@
+// One level of the multigrid hierarchy.
+#pragma once
+
+#include <memory>
+
+#include "koshi/grid.h"
+#include "lattice/halo.h"
+#include "lattice/partition.h"
+#include "statics/fixed_nodes.h"
+#include "statics/node_blocks.h"
+#include "statics/spring_rows.h"
+
+namespace koshi::statics {
+
+/// A level's box of cells on the ranks.
+struct LevelGrid {
+  lattice::Grid grid;
+  std::shared_ptr<const lattice::Partition> partition;
+  std::shared_ptr<const lattice::Halo> halo;
+
+  const Int3& owned() const { return halo->layout().owned(); }
+  /// Can 2x2x2 cells be merged without crossing ranks or a periodic border?
+  bool can_coarsen() const;
+  /// Cells merged 2x2x2; an odd number of cells is padded with an empty layer at the upper side.
+  LevelGrid coarsened() const;
+};
+
+/// Constants of merged cells, the mean of eight cells at twice the spacing: a quarter of their sum (springs grow with
+/// the spacing). Ghosts included (collective).
+RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& coarse);
+
+/// The stiffness K of one level, in single precision, with relaxation. Fixed components and nodes without a cell stay
+/// zero; all functions are collective.
+class Level {
+ public:
+  Level(LevelGrid grid, int components, const RowField<float>& constants, FixedNodes fixed);
+
+  /// x += polynomial(B K) B (b - K x): `degree` steps of Chebyshev's iteration of the fourth kind for eigenvalues of
+  /// B K up to `bound` (J. Lottes, doi:10.1002/nla.2535), which needs no lower bound. `from_zero`: x is taken as zero.
+  void relax(int degree, double bound, bool from_zero);
+  /// Right-hand side of the next coarser level: its b = P^T (b - K x), P the trilinear interpolation of all components
+  /// (rho = (d/2) w halves from a level to the next finer one).
+  void restrict_residual(Level& coarse);
+  /// x += P e with the coarser level's solution e.
+  void add_correction(Level& coarse);
+
+  const LevelGrid& grid() const { return grid_; }
+  const SpringRows& springs() const { return springs_; }
+  const FixedNodes& fixed() const { return fixed_; }
+  int components() const { return components_; }
+
+  RowField<float> b;  ///< right-hand side, zero on fixed components
+  RowField<float> x;
+
+ private:
+  /// Runs over all rows of owned nodes: use(j, k, row) gets the row with its forces -K x.
+  template <class F>
+  void for_each_row(F&& use);
+  mechanics::RelaxRow relax_row(std::int64_t j, std::int64_t k);
+
+  LevelGrid grid_;
+  int components_;
+  FixedNodes fixed_;
+  SpringRows springs_;
+  NodeBlocks blocks_;
+  RowField<float> y_;
+  RowField<float> force_;  ///< two planes of forces under construction
+  RowField<float> line_;   ///< one component of a row, for transfers
+};
+
+}  // namespace koshi::statics

@@ -1,0 +1,135 @@
+#include "statics/node_blocks.h"
+
+#include <Eigen/Cholesky>
+
+#include <array>
+#include <string>
+#include <unordered_map>
+
+#include "statics/cell_springs.h"
+
+namespace koshi::statics {
+namespace {
+
+using mechanics::block_width;
+using mechanics::cell_constants;
+using Block = Eigen::Matrix<double, 6, 6>;
+
+/// The four rows of cells around a row of nodes: r = 0 ... 3 for (j, k), (j-1, k), (j, k-1), (j-1, k-1).
+using CellRows = std::array<std::int32_t, 4>;
+
+/// Makes the blocks of one group of nodes.
+class BlockMaker {
+ public:
+  BlockMaker(const SpringRows& springs, int components) : springs_(springs), components_(components) {
+    const auto basis = cell_basis(components);
+    for (int q = 0; q < cell_constants; ++q)
+      for (int corner = 0; corner < 8; ++corner)
+        corner_[q][corner] = basis[q].block(corner * components, corner * components, components, components);
+  }
+
+  bool is_empty(const CellRows& rows, std::int64_t i) const {
+    for (int corner = 0; corner < 8; ++corner)
+      for (int q = 0; q < cell_constants; ++q)
+        if (constant(rows, i, corner, q) != 0) return false;
+    return true;
+  }
+
+  /// Inverse block of node i.
+  Eigen::MatrixXd inverse(const CellRows& rows, std::int64_t i, std::uint8_t fixed) const {
+    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(components_, components_);
+    for (int corner = 0; corner < 8; ++corner)
+      for (int q = 0; q < cell_constants; ++q)
+        if (const float k = constant(rows, i, corner, q); k != 0) K += k * corner_[q][corner];
+    for (int c = 0; c < components_; ++c)
+      if (fixed >> c & 1) {
+        K.row(c).setZero();
+        K.col(c).setZero();
+        K(c, c) = 1;
+      }
+    Eigen::MatrixXd B = K.llt().solve(Eigen::MatrixXd::Identity(components_, components_));
+    for (int c = 0; c < components_; ++c)
+      if (fixed >> c & 1) B(c, c) = 0;
+    return B;
+  }
+
+  /// Are all cells around nodes first ... last - 1 alike and not empty?
+  bool is_uniform(const CellRows& rows, std::int64_t first, std::int64_t last) const {
+    for (int q = 0; q < cell_constants; ++q) {
+      const float k = constant(rows, first, 0, q);
+      for (std::int64_t i = first; i < last; ++i)
+        for (int corner = 0; corner < 8; ++corner)
+          if (constant(rows, i, corner, q) != k) return false;
+    }
+    return !is_empty(rows, first);
+  }
+
+ private:
+  // Constant q of the cell in which node i is the corner; corner bits: 1 = the node is the cell's upper end.
+  float constant(const CellRows& rows, std::int64_t i, int corner, int q) const {
+    return springs_.constants(rows[static_cast<std::size_t>(corner >> 1)])[q * springs_.pitch() + i - (corner & 1)];
+  }
+
+  const SpringRows& springs_;
+  int components_;
+  std::array<std::array<Eigen::MatrixXd, 8>, cell_constants> corner_;
+};
+
+}  // namespace
+
+NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int components)
+    : owned_y_(springs.owned()[1]), groups_per_row_((springs.owned()[0] + block_width - 1) / block_width) {
+  const Int3& owned = springs.owned();
+  const BlockMaker maker(springs, components);
+  std::unordered_map<std::string, std::int32_t> known;
+  std::array<std::uint8_t, block_width> mask;
+  auto next_fixed = fixed.begin();
+  for (std::int64_t k = 0; k < owned[2]; ++k)
+    for (std::int64_t j = 0; j < owned[1]; ++j) {
+      const CellRows rows{springs.row(j, k), springs.row(j - 1, k), springs.row(j, k - 1), springs.row(j - 1, k - 1)};
+      bool empty = true;
+      for (const std::int32_t r : rows) empty = empty && springs.span(r).first == springs.span(r).last;
+      empty_.push_back(empty);
+      for (std::int64_t first = 0; first < owned[0]; first += block_width) {
+        const std::int64_t last = std::min(first + block_width, owned[0]);
+        mask.fill(0);
+        bool any_fixed = false;
+        for (; next_fixed != fixed.end() && next_fixed->node[2] == k && next_fixed->node[1] == j &&
+               next_fixed->node[0] < last;
+             ++next_fixed) {
+          mask[static_cast<std::size_t>(next_fixed->node[0] - first)] = next_fixed->mask;
+          any_fixed = true;
+        }
+        if (empty) {
+          groups_.push_back(0);
+          continue;
+        }
+        std::string key(reinterpret_cast<const char*>(rows.data()), sizeof rows);
+        key.append(reinterpret_cast<const char*>(&first), sizeof first);
+        key.append(mask.begin(), mask.end());
+        const auto [entry, is_new] = known.try_emplace(key, 0);
+        if (is_new && !any_fixed && maker.is_uniform(rows, first, last)) {
+          // By symmetry the block is a multiple of one for displacements and for rotations.
+          entry->second = ~static_cast<std::int32_t>(uniform_.size() / 2);
+          const Eigen::MatrixXd B = maker.inverse(rows, first, 0);
+          uniform_.push_back(static_cast<float>(B(0, 0)));
+          uniform_.push_back(static_cast<float>(B(components - 1, components - 1)));
+        } else if (is_new) {
+          const std::size_t start = blocks_.size(), set = static_cast<std::size_t>(components * (components + 1) / 2) *
+                                                          static_cast<std::size_t>(block_width);
+          entry->second = static_cast<std::int32_t>(start / set);
+          blocks_.resize(start + set);
+          for (std::int64_t i = first; i < last; ++i) {
+            if (maker.is_empty(rows, i)) continue;
+            const Eigen::MatrixXd B = maker.inverse(rows, i, mask[static_cast<std::size_t>(i - first)]);
+            float* to = blocks_.data() + start + (i - first);
+            for (int a = 0; a < components; ++a)
+              for (int b = 0; b <= a; ++b, to += block_width) *to = static_cast<float>(B(a, b));
+          }
+        }
+        groups_.push_back(entry->second);
+      }
+    }
+}
+
+}  // namespace koshi::statics

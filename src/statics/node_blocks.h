@@ -1,0 +1,36 @@
+// Inverse node blocks of a multigrid level, for relaxation.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "mechanics/relax_rows.h"
+#include "statics/fixed_nodes.h"
+#include "statics/spring_rows.h"
+
+namespace koshi::statics {
+
+/// The inverse of each node's own block of the stiffness matrix, 6 x 6 or 3 x 3; zero in rows and columns of fixed
+/// components and for nodes without a cell. Nodes come in groups of mechanics::block_width along a row; groups with
+/// equal surroundings share their blocks, and inside a uniform material a block is just two numbers.
+class NodeBlocks {
+ public:
+  /// Springs hold every corner of a cell (relaxation_bound() has checked them).
+  NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int components);
+
+  /// Blocks of row (j, k) for RelaxRow; null when the row has no node with a cell.
+  const std::int32_t* row(std::int64_t j, std::int64_t k) const {
+    const std::int64_t at = j + owned_y_ * k;
+    return empty_[static_cast<std::size_t>(at)] != 0 ? nullptr : groups_.data() + at * groups_per_row_;
+  }
+  const float* uniform() const { return uniform_.data(); }
+  const float* blocks() const { return blocks_.data(); }
+
+ private:
+  std::int64_t owned_y_, groups_per_row_;
+  std::vector<std::int32_t> groups_;
+  std::vector<std::uint8_t> empty_;
+  std::vector<float> uniform_, blocks_;
+};
+
+}  // namespace koshi::statics

@@ -1,0 +1,59 @@
+// PETSc objects with owners, and its error codes as errors.
+#pragma once
+
+#include <petscksp.h>
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "koshi/communicator.h"
+
+namespace koshi::statics {
+
+/// Throws RunError with PETSc's message when the code is not success.
+void check(PetscErrorCode code);
+
+/// Owns one PETSc object.
+template <class T, PetscErrorCode (*destroy)(T*)>
+class Owner {
+ public:
+  Owner() = default;
+  Owner(Owner&& other) noexcept : object_(std::exchange(other.object_, nullptr)) {}
+  Owner& operator=(Owner&& other) noexcept {
+    std::swap(object_, other.object_);
+    return *this;
+  }
+  ~Owner() {
+    if (object_ != nullptr) destroy(&object_);
+  }
+  operator T() const { return object_; }
+  /// For PETSc's functions that create an object.
+  T* create() { return &object_; }
+
+ private:
+  T object_ = nullptr;
+};
+
+using PetscVec = Owner<Vec, VecDestroy>;
+using PetscMat = Owner<Mat, MatDestroy>;
+using PetscKsp = Owner<KSP, KSPDestroy>;
+
+/// PETSc for the life of the object, with its own set of options; all PETSc objects must be gone before it.
+class PetscSession {
+ public:
+  /// `options` as on a command line: "-ksp_monitor", "-coarse_pc_type", "lu".
+  PetscSession(const Communicator& communicator, const std::vector<std::string>& options);
+  ~PetscSession();
+  PetscSession(const PetscSession&) = delete;
+  PetscSession& operator=(const PetscSession&) = delete;
+
+  /// Options that nothing has asked for.
+  std::vector<std::string> unused_options() const;
+
+ private:
+  bool owns_ = false;
+  PetscOptions options_ = nullptr;
+};
+
+}  // namespace koshi::statics
