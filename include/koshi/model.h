@@ -70,8 +70,8 @@ double factor(const History& history, double t);
 /// Ramp times history of a boundary at time t [s].
 double factor(const BoundaryDefinition& boundary, double t);
 
-/// Memory [bytes] that a run of this definition needs on all ranks.
-double predicted_memory(const Definition& definition);
+/// Memory [bytes] that a run of this definition needs on all its ranks together.
+double predicted_memory(const Definition& definition, int ranks);
 
 /// What changes during a run. Component order: ux, uy, uz [m], rx, ry, rz [rad] (three components with least-squares).
 struct State {

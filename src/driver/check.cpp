@@ -52,7 +52,7 @@ std::string check(const model::Definition& definition, const Communicator& commu
   text += fmt::format("cells         {} x {} x {}, {} solid\nnodes         {}, {} unknowns\n", cells[0], cells[1],
                       cells[2], model.cell_count, model.node_count, model.node_count * model.components());
   text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB\n", model.motion_count,
-                      model::predicted_memory(model.definition) / 1e9);
+                      model::predicted_memory(model.definition, communicator.size()) / 1e9);
   if (definition.analysis.type != model::AnalysisDefinition::Type::statics) text += explicit_part(model);
   for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
     text += fmt::format("\n# material {}\n", definition.materials[m - 1].name) +

@@ -7,6 +7,7 @@
 #include "base/collective.h"
 #include "base/memory.h"
 #include "base/progress.h"
+#include "driver/checkpoints.h"
 #include "driver/fields.h"
 #include "driver/report.h"
 #include "driver/results.h"
@@ -24,36 +25,55 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   const model::Model& model = simulation.model();
   const model::Definition& definition = model.definition;
   const Communicator& communicator = model.communicator;
+  // Everything that can be wrong with the input is found before the output directory is made; the search for the stable
+  // step comes before the state takes its memory, since it needs as much.
   simulation.prepare();
+  model::State& state = simulation.state();
+  Checkpoints checkpoints(model, options.directory);
+  std::optional<double> restart_time;
+  if (!options.restart.empty()) {
+    checkpoints.restore(options.restart, state);
+    restart_time = state.time;
+  } else if (!definition.analysis.start_from.empty()) {
+    start_from(std::filesystem::path(definition.directory) / definition.analysis.start_from, model, state);
+  }
   io::make_output_directory(communicator, options.directory);
   io::write_resolved(communicator, options.directory,
                      io::resolved_toml(io::with_cells_in_file(communicator, definition, options.directory)));
 
-  io::FieldWriter field_writer(model, options.directory, std::nullopt);
-  io::HistoryWriter history(communicator, options.directory, history_columns(model), std::nullopt);
+  io::FieldWriter field_writer(model, options.directory, restart_time);
+  io::HistoryWriter history(communicator, options.directory, history_columns(model), restart_time);
   Progress progress(options.quiet || !communicator.is_root(), definition.title.empty() ? "koshi" : definition.title);
 
   Observer observer;
-  observer.history = [&](const mechanics::Measurement& measurement, model::State& state) {
-    history.write(history_row(state.time, measurement));
+  observer.history = [&](const mechanics::Measurement& measurement, model::State& at) {
+    history.write(history_row(at.time, measurement));
   };
-  observer.fields = [&](model::State& state, double) {
-    const FieldSet set(definition.output.fields, model, state, simulation.meter());
-    field_writer.write(state.time, set.fields());
+  observer.fields = [&](model::State& at, double) {
+    const FieldSet set(definition.output.fields, model, at, simulation.meter());
+    field_writer.write(at.time, set.fields());
   };
   observer.progress = [&](double fraction, const std::string& details) {
     progress.update(fraction, details);
     if (outer.progress) outer.progress(fraction, details);
   };
-  observer.poll = outer.poll;
+  observer.poll = [&](model::State& at) { return checkpoints.poll(at) || (outer.poll && outer.poll(at)); };
+  observer.diverged = [&](model::State& at) {
+    return fmt::format("; the state is kept in {}", checkpoints.write_diverged(at).string());
+  };
 
   Outcome outcome = simulation.run(observer, options.petsc_options);
-  io::write_summary(communicator, options.directory,
-                    summary(model, simulation.state(), outcome, peak_memory(communicator)));
+  progress.finish("");
+  if (outcome.stopped && checkpoints.stop_requested())
+    throw RunError(fmt::format("stopped by a signal at step {} (t = {:.6g} s); go on with --restart {}", state.step,
+                               state.time, (options.directory / "checkpoint.h5").string()));
+  // An equilibrium may be the start of another run; other runs keep their end when they keep checkpoints at all.
+  const bool equilibrium = definition.analysis.type != model::AnalysisDefinition::Type::dynamic;
+  if (equilibrium || definition.output.checkpoint_every || definition.output.checkpoint_wall) checkpoints.write(state);
+  io::write_summary(communicator, options.directory, summary(model, state, outcome, peak_memory(communicator)));
   collectively(communicator, [&] {
     if (definition.output.report && communicator.is_root()) write_report(options.directory);
   });
-  progress.finish("");
   return outcome;
 }
 
@@ -66,7 +86,6 @@ void require_rest(const model::Model& model, const Outcome& outcome, const std::
 }
 
 void run(const model::Definition& definition, const RunOptions& options, const Communicator& communicator) {
-  // Everything that can be wrong with the input is found before the output directory is made.
   Simulation simulation(definition, communicator);
   const Outcome outcome = run_simulation(simulation, options);
   if (!options.quiet && communicator.is_root())

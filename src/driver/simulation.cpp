@@ -36,12 +36,16 @@ model::Model load_model(const model::Definition& definition, const Communicator&
 Simulation::Simulation(const model::Definition& definition, const Communicator& communicator)
     : model_(std::make_unique<model::Model>(load_model(definition, communicator))),
       kernel_(std::make_unique<mechanics::ForceKernel<double>>(model_->lattice)),
-      meter_(std::make_unique<mechanics::Meter>(*model_, *kernel_)),
-      state_(std::make_unique<model::State>(*model_)) {
-  if (wants_orientation(definition) && model_->components() == 6) {
+      meter_(std::make_unique<mechanics::Meter>(*model_, *kernel_)) {}
+
+model::State& Simulation::state() {
+  if (state_) return *state_;
+  state_ = std::make_unique<model::State>(*model_);
+  if (wants_orientation(model_->definition) && model_->components() == 6) {
     state_->orientation = lattice::Field<double>(model_->layout(), 4);
     std::fill_n(state_->orientation.component(0), state_->orientation.stride(), 1.0);
   }
+  return *state_;
 }
 
 void Simulation::prepare() {
@@ -55,6 +59,7 @@ Outcome Simulation::run(const Observer& observer, const std::vector<std::string>
   const double start = now();
   prepare();
   stepper_.reset();
+  state();
   Outcome outcome =
       model_->definition.analysis.type == Type::statics ? run_static(observer, petsc_options) : run_explicit(observer);
   lag_ = outcome.time_step;
@@ -101,7 +106,7 @@ double Simulation::choose_step(const mechanics::StableStep& stable) const {
   return *analysis.time_step;
 }
 
-void Simulation::check_divergence(const mechanics::Balance& balance) const {
+void Simulation::check_divergence(const mechanics::Balance& balance, const Observer& observer) const {
   // A body that has moved a thousand times its size is no answer, and soon no number.
   const Vec3& size = model_->definition.body.size;
   const double bound = 1e3 * std::max({size[0], size[1], size[2]});
@@ -117,12 +122,19 @@ void Simulation::check_divergence(const mechanics::Balance& balance) const {
   });
   const bool finite = std::isfinite(balance.elastic_energy) && std::isfinite(balance.kinetic_energy);
   if (!model_->communicator.any(!finite || !(largest < bound))) return;
-  const Vec3 at = model_->lattice.grid.position(where);
+  // The rank with the largest displacement tells the others where.
+  const Communicator& communicator = model_->communicator;
+  const bool here = largest == communicator.max(largest);
+  const int rank = static_cast<int>(communicator.min(here ? communicator.rank() : communicator.size() - 1));
+  const Vec3 own = model_->lattice.grid.position(where);
+  std::array<double, 4> at{own[0], own[1], own[2], largest};
+  communicator.broadcast(at, rank);
   const double dt = state_->step > 0 ? state_->time / static_cast<double>(state_->step) : 0;
-  throw RunError(fmt::format(
-      "the run diverged at or before step {} (t = {:.6g} s): node ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m "
-      "has moved {:.3g} m; use a smaller time_step than {:.3g} s (or \"auto\"), or check loads and units",
-      state_->step, state_->time, where[0], where[1], where[2], at[0], at[1], at[2], largest, dt));
+  const std::string kept = observer.diverged ? observer.diverged(*state_) : "";
+  throw RunError(
+      fmt::format("the run diverged at or before step {} (t = {:.6g} s): the node at ({:.4g}, {:.4g}, {:.4g}) m "
+                  "has moved {:.3g} m; use a smaller time_step than {:.3g} s (or \"auto\"), or check loads and units{}",
+                  state_->step, state_->time, at[0], at[1], at[2], at[3], dt, kept));
 }
 
 Outcome Simulation::run_explicit(const Observer& observer) {
@@ -146,7 +158,7 @@ Outcome Simulation::run_explicit(const Observer& observer) {
     const bool last = step == schedule.last_step();
     if (schedule.is_check(step) || schedule.is_history(step) || last) {
       outcome.measurement = meter_->measure(*state_, schedule.dt());
-      check_divergence(outcome.measurement.balance);
+      check_divergence(outcome.measurement.balance, observer);
       outcome.converged = !quasi_static || schedule.at_rest(outcome.measurement.balance, state_->time);
     }
     const bool done = last || (quasi_static && outcome.converged);

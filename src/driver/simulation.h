@@ -36,6 +36,8 @@ struct Observer {
   std::function<void(double, const std::string&)> progress;
   /// Called every few steps; true stops the run.
   std::function<bool(model::State&)> poll;
+  /// The run has diverged and is about to end with RunError; what it returns is added to the message.
+  std::function<std::string(model::State&)> diverged;
 };
 
 /// The model of a definition, files that it names read first (collective).
@@ -68,7 +70,8 @@ class Simulation {
   void set_boundary_factor(const std::string& name, double value);
 
   const model::Model& model() const { return *model_; }
-  model::State& state() { return *state_; }
+  /// The state, at rest until something changes it; takes its memory when first asked for.
+  model::State& state();
   mechanics::Meter& meter() { return *meter_; }
 
  private:
@@ -76,7 +79,7 @@ class Simulation {
   Outcome run_explicit(const Observer& observer);
   double choose_step(const mechanics::StableStep& stable) const;
   void check_support() const;
-  void check_divergence(const mechanics::Balance& balance) const;
+  void check_divergence(const mechanics::Balance& balance, const Observer& observer) const;
 
   // On the heap, since parts refer to each other. Of the model only factors of loads and boundaries ever change.
   std::unique_ptr<model::Model> model_;

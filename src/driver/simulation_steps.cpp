@@ -26,12 +26,12 @@ double Simulation::time_step() {
 }
 
 void Simulation::step(std::int64_t count) {
-  if (!stepper_) stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, *state_, time_step());
+  if (!stepper_) stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, state(), time_step());
   for (std::int64_t s = 0; s < count; ++s) stepper_->step();
   if (count > 0) lag_ = time_step();
 }
 
-mechanics::Measurement Simulation::measure() { return meter_->measure(*state_, lag_); }
+mechanics::Measurement Simulation::measure() { return meter_->measure(state(), lag_); }
 
 void Simulation::set_load_factor(const std::string& name, double value) {
   model::History history{{0, value}};

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "base/collective.h"
 #include "koshi/calibration.h"
 #include "lattice/halo.h"
 #include "model/conditions.h"
+#include "model/memory.h"
 #include "model/regions.h"
 
 namespace koshi::model {
@@ -62,42 +62,12 @@ lattice::Field<double> make_inertia(const Model& model) {
   return inertia;
 }
 
-double available_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string key;
-  double kilobytes = 0;
-  while (file >> key) {
-    if (key == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
-    file.ignore(256, '\n');
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
-void check_memory(const Definition& definition) {
-  const double needed = predicted_memory(definition), available = available_memory();
-  if (needed <= available) return;
-  const double spacing = definition.lattice.spacing * std::cbrt(needed / available);
-  throw InputError(
-      definition.places.find("lattice.spacing"),
-      fmt::format("the run needs {:.3g} GB of memory and {:.3g} GB are free; a spacing of about {:.3g} m would fit",
-                  needed / 1e9, available / 1e9, 1.02 * spacing));
-}
-
 }  // namespace
-
-double predicted_memory(const Definition& definition) {
-  const Int3 cells = make_grid(definition).cells;
-  const double padded = static_cast<double>((cells[0] + 1 + 2 * lattice::Layout::lead) * (cells[1] + 3)) *
-                        static_cast<double>(cells[2] + 3);
-  const int components = definition.lattice.kinematics == material::Kinematics::rotational ? 6 : 3;
-  // Displacement, velocity and force, two inertias, the cell and its bonds.
-  return padded * (8.0 * (3 * components + 2) + 1 + lattice::slot_count);
-}
 
 Model make_model(const Definition& definition, const Communicator& communicator) {
   check(definition);
   const lattice::Grid grid = make_grid(definition);
-  collectively(communicator, [&] { check_memory(definition); });
+  collectively(communicator, [&] { check_memory(definition, communicator.size()); });
   const auto partition = std::make_shared<const lattice::Partition>(lattice::make_partition(grid, communicator.size()));
   const auto halo = std::make_shared<const lattice::Halo>(grid, *partition, communicator);
 

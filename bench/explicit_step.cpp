@@ -1,0 +1,98 @@
+// The explicit step, local damping on, in million node-steps per second of processor time.
+#include <benchmark/benchmark.h>
+
+#include "koshi/dynamics.h"
+#include "koshi/model.h"
+
+namespace koshi {
+namespace {
+
+using lattice::CellType;
+using material::Calibration;
+using material::Kinematics;
+
+struct Choice {
+  const char* name;
+  CellType cell;
+  Calibration calibration;
+  Kinematics kinematics;
+  double nu;
+  int materials;  // 1: uniform block; more: every cell one of them at random
+};
+
+constexpr Choice choices[] = {
+    {"Cube-I, rotational", CellType::cube_i, Calibration::isotropic, Kinematics::rotational, 0.0, 1},
+    {"Cube-II, rotational", CellType::cube_ii, Calibration::isotropic, Kinematics::rotational, 0.18, 1},
+    {"Cube-III, rotational", CellType::cube_iii, Calibration::isotropic, Kinematics::rotational, 0.18, 1},
+    {"Cube-III volumetric, rotational", CellType::cube_iii, Calibration::bending_exact, Kinematics::rotational, 0.18,
+     1},
+    {"Cube-II, least-squares", CellType::cube_ii, Calibration::isotropic, Kinematics::least_squares, 0.18, 1},
+    {"Cube-III volumetric, least-squares", CellType::cube_iii, Calibration::bending_exact, Kinematics::least_squares,
+     0.18, 1},
+    {"Cube-III volumetric, rotational, 2 materials mixed", CellType::cube_iii, Calibration::bending_exact,
+     Kinematics::rotational, 0.18, 2},
+    {"Cube-III volumetric, rotational, 3 materials mixed", CellType::cube_iii, Calibration::bending_exact,
+     Kinematics::rotational, 0.18, 3},
+    {"Cube-III volumetric, least-squares, 3 materials mixed", CellType::cube_iii, Calibration::bending_exact,
+     Kinematics::least_squares, 0.18, 3},
+};
+
+model::Definition block(const Choice& choice, int nodes) {
+  model::Definition definition;
+  definition.lattice.cell = choice.cell;
+  definition.lattice.calibration = choice.calibration;
+  definition.lattice.kinematics = choice.kinematics;
+  definition.lattice.spacing = 1e-3;
+  const double side = 1e-3 * (nodes - 1);
+  definition.body.size = {side, side, side};
+  definition.body.material = "a";
+  for (const char* name : {"a", "b", "c"})
+    definition.materials.push_back({name, {1e9 * (1 + definition.materials.size()), choice.nu, 2000}});
+  if (choice.materials > 1) {
+    const auto count = static_cast<std::size_t>(nodes - 1);
+    definition.body.cells.resize(count * count * count);
+    std::uint32_t random = 1;
+    for (auto& cell : definition.body.cells) {
+      random = random * 1664525u + 1013904223u;
+      cell = static_cast<std::uint8_t>(1 + (random >> 20) % static_cast<std::uint32_t>(choice.materials));
+    }
+  }
+  model::BoundaryDefinition bottom;
+  bottom.name = "bottom";
+  bottom.selection.face = model::Face::z_min;
+  bottom.fix.fill(true);
+  definition.boundaries = {bottom};
+  definition.analysis.type = model::AnalysisDefinition::Type::dynamic;
+  definition.analysis.duration = 1;
+  definition.analysis.damping = {model::DampingDefinition::Kind::local, 0.8, 0};
+  return definition;
+}
+
+void explicit_step(benchmark::State& state, const Choice& choice) {
+  const int nodes = static_cast<int>(state.range(0));
+  const model::Model model = model::make_model(block(choice, nodes), Communicator::world());
+  model::State motion(model);
+  for (int c = 0; c < model.components(); ++c)
+    lattice::for_each_owned(model.layout(), [&](auto i, auto j, auto k, auto n) {
+      motion.velocity.component(c)[n] = 1e-6 * static_cast<double>((i + 2 * j + 3 * k + c) % 7 - 3);
+    });
+  dynamics::ExplicitSolver solver(model, motion, 2e-7);
+  solver.step();
+  for (auto _ : state) solver.step();
+  state.counters["Mnode-steps/s"] =
+      benchmark::Counter(1e-6 * static_cast<double>(model.node_count) * static_cast<double>(state.iterations()),
+                         benchmark::Counter::kIsRate);
+}
+
+const bool registered = [] {
+  for (const Choice& choice : choices) {
+    auto* bench =
+        benchmark::RegisterBenchmark((std::string("explicit_step/") + choice.name).c_str(), explicit_step, choice);
+    bench->Unit(benchmark::kMillisecond)->Arg(64)->Arg(128)->Arg(192);
+    if (choice.materials == 1) bench->Arg(256);
+  }
+  return true;
+}();
+
+}  // namespace
+}  // namespace koshi

@@ -1,0 +1,98 @@
+#include "driver/checkpoints.h"
+
+#include <chrono>
+#include <csignal>
+
+#include "base/progress.h"
+#include "io/checkpoint.h"
+#include "koshi/input.h"
+
+namespace koshi::driver {
+namespace {
+
+volatile std::sig_atomic_t stop_signal = 0;
+
+void request_stop(int) { stop_signal = 1; }
+
+// What must be equal for a run to go on: everything but the output and how long to run.
+std::string case_text(model::Definition definition) {
+  definition.title.clear();
+  definition.output = {};
+  if (definition.analysis.type == model::AnalysisDefinition::Type::dynamic) definition.analysis.duration = 1;
+  return io::resolved_toml(definition);
+}
+
+std::vector<io::CheckpointField> extra_fields(model::State& state) {
+  if (state.orientation.components() == 0) return {};
+  return {{"orientation", &state.orientation}};
+}
+
+}  // namespace
+
+Checkpoints::Checkpoints(const model::Model& model, std::filesystem::path directory)
+    : model_(model),
+      directory_(std::move(directory)),
+      case_text_(case_text(model.definition)),
+      last_wall_(steady_seconds()) {
+  stop_signal = 0;
+  std::signal(SIGINT, request_stop);
+  std::signal(SIGTERM, request_stop);
+}
+
+Checkpoints::~Checkpoints() {
+  std::signal(SIGINT, SIG_DFL);
+  std::signal(SIGTERM, SIG_DFL);
+}
+
+void Checkpoints::restore(const std::filesystem::path& file, model::State& state) const {
+  const auto fields = extra_fields(state);
+  const io::CheckpointInfo info = io::read_checkpoint(file, model_, case_text_, state, fields);
+  state.time = info.time;
+  state.step = info.step;
+}
+
+bool Checkpoints::stop_requested() const { return model_.communicator.any(stop_signal != 0); }
+
+bool Checkpoints::poll(model::State& state) {
+  const model::OutputDefinition& output = model_.definition.output;
+  const double wall = steady_seconds();
+  const bool stop = stop_requested();
+  const bool by_time = output.checkpoint_every && state.time >= last_time_ + *output.checkpoint_every;
+  // Clocks differ between ranks: the root's decides.
+  const bool by_wall = output.checkpoint_wall && model_.communicator.any(model_.communicator.is_root() &&
+                                                                         wall >= last_wall_ + *output.checkpoint_wall);
+  if (stop || by_time || by_wall) write(state);
+  return stop;
+}
+
+void Checkpoints::write(model::State& state) {
+  write_to(directory_, state);
+  last_time_ = state.time;
+  last_wall_ = steady_seconds();
+}
+
+std::filesystem::path Checkpoints::write_diverged(model::State& state) {
+  const std::filesystem::path directory = directory_ / "diverged";
+  if (model_.communicator.is_root()) std::filesystem::create_directories(directory);
+  model_.communicator.barrier();
+  write_to(directory, state);
+  return directory / "checkpoint.h5";
+}
+
+void Checkpoints::write_to(const std::filesystem::path& directory, model::State& state) const {
+  io::CheckpointInfo info;
+  info.case_text = case_text_;
+  const auto fields = extra_fields(state);
+  io::write_checkpoint(directory, model_, state, info, fields);
+}
+
+void start_from(const std::filesystem::path& directory, const model::Model& model, model::State& state) {
+  // Its own text is accepted: the case may differ, the lattice is still compared.
+  const io::CheckpointInfo header = io::read_checkpoint_header(directory, model.communicator);
+  io::read_checkpoint(directory, model, header.case_text, state);
+  state.velocity.zero();
+  state.time = 0;
+  state.step = 0;
+}
+
+}  // namespace koshi::driver

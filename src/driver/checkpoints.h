@@ -1,0 +1,42 @@
+// When a run writes checkpoints, and how it goes on from one.
+#pragma once
+
+#include <filesystem>
+
+#include "driver/simulation.h"
+
+namespace koshi::driver {
+
+/// Checkpoints of one run in its output directory. From its construction to its end SIGINT and SIGTERM ask the run to
+/// stop after a last checkpoint instead of ending the process.
+class Checkpoints {
+ public:
+  Checkpoints(const model::Model& model, std::filesystem::path directory);
+  ~Checkpoints();
+  Checkpoints(const Checkpoints&) = delete;
+  Checkpoints& operator=(const Checkpoints&) = delete;
+
+  /// Goes on from a checkpoint of the same case (collective).
+  void restore(const std::filesystem::path& file, model::State& state) const;
+  /// Writes one if it is due, by simulated or wall time, or because a signal came; true: stop the run (collective).
+  bool poll(model::State& state);
+  /// Whether a signal has asked the run to stop, on any rank (collective).
+  bool stop_requested() const;
+  void write(model::State& state);
+  /// Writes the state of a diverged run beside, where it replaces no good checkpoint.
+  std::filesystem::path write_diverged(model::State& state);
+
+ private:
+  void write_to(const std::filesystem::path& directory, model::State& state) const;
+
+  const model::Model& model_;
+  std::filesystem::path directory_;
+  std::string case_text_;
+  double last_time_ = 0, last_wall_ = 0;  ///< of the last checkpoint [s]
+};
+
+/// Takes the displacements of the last checkpoint in an earlier run's output directory as the start: an equilibrium for
+/// a dynamic run. The lattices must be alike, loads and boundaries may differ (collective).
+void start_from(const std::filesystem::path& directory, const model::Model& model, model::State& state);
+
+}  // namespace koshi::driver
