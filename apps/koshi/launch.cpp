@@ -23,7 +23,8 @@ void launch(int ranks, const std::vector<std::string>& arguments) {
   setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
   setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
   // Ranks without a core of their own must not spin while they wait for the others.
-  if (static_cast<unsigned>(ranks) > std::thread::hardware_concurrency()) setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  if (static_cast<unsigned>(ranks) > std::thread::hardware_concurrency())
+    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
   // The launcher passes on what the ranks print; the live line still works if this process has a terminal.
   if (isatty(STDERR_FILENO)) setenv("KOSHI_PROGRESS", "live", 0);
   std::vector<std::string> command{"mpiexec", "-n", std::to_string(ranks), "/proc/self/exe"};

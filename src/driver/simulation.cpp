@@ -73,7 +73,7 @@ Outcome Simulation::run_static(const Observer& observer, const std::vector<std::
   options.petsc_options = petsc_options;
   if (observer.progress)
     options.progress = [&](int iteration, double residual) {
-      observer.progress(std::clamp(std::log(residual) / std::log(options.tolerance), 0.0, 1.0),
+      observer.progress(std::clamp(std::log(residual) / std::log(options.tolerance), 0.0, 1.0) + 0.0,
                         fmt::format("iteration {}, residual {:.1e}", iteration, residual));
     };
   Outcome outcome;
