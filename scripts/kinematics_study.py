@@ -1,0 +1,107 @@
+#!/usr/bin/python3
+"""Node rotations against the cell's least-squares fit: writes the tables of docs/validation/kinematics.md to stdout.
+
+    scripts/kinematics_study.py [--koshi build/release/koshi]
+
+Accuracy and unknowns by direct equilibrium, cost by explicit runs of one block, the least of three runs each; the figures
+of rigid rotations are closed forms that tests/verification/test_rigid_rotation.cpp checks.
+"""
+import argparse
+import json
+import math
+import pathlib
+import subprocess
+import tempfile
+
+from convergence_study import CLAMP, CONVERGED, E, TIP_LOAD, TIP_PROBE, case
+
+KINEMATICS = ["rotational", "least-squares"]
+
+
+def run(koshi, directory, text, *options):
+    file = directory / "case.toml"
+    file.write_text(text)
+    subprocess.run([koshi, "run", file, "--out", directory / "out", "--quiet", *options], check=True)
+    return json.loads((directory / "out" / "summary.json").read_text())
+
+
+def plain(text, axes):
+    return text.replace("[body]", f'springs = "plain"\naxes = "{axes}"\n[body]')
+
+
+def uniaxial(koshi, directory, cell, kinematics):
+    """E/E0 and nu/nu0 of the paper's compression with its full springs."""
+    platens = ('[[boundary]]\nname = "bottom"\nface = "z-min"\nfix = ["z", "rx", "ry", "rz"]\n'
+               '[[boundary]]\nname = "top"\nface = "z-max"\ndisplacement = { z = -0.00032 }\n')
+    # The least-squares body may slide and turn on its platens: three points hold it.
+    hold = ('[[boundary]]\nname = "centre"\npoint = [0.004, 0.004, 0.0]\nfix = ["x", "y"]\n'
+            '[[boundary]]\nname = "edge"\npoint = [0.008, 0.004, 0.0]\nfix = ["y"]\n')
+    probes = '[[probe]]\nname = "force"\nface = "z-max"\nquantity = "reaction"\n'
+    for name, x in (("left", 0.0), ("right", 0.008)):
+        probes += f'[[probe]]\nname = "{name}"\npoint = [{x}, 0.004, 0.008]\nquantity = "displacement"\n'
+    text = case(("", cell, "paper", kinematics), 0.18, 0.002, (0.008, 0.008, 0.016), platens + hold, probes)
+    values = run(koshi, directory, plain(text, "xyz"))["probes"]
+    modulus = -values["force"]["reaction"][2] / 0.008**2 / 0.02
+    lateral = (values["right"]["displacement"][0] - values["left"]["displacement"][0]) / 0.008 / 0.02
+    return modulus / E, lateral / 0.18
+
+
+def cantilever(koshi, directory, cell, calibration, kinematics, nu):
+    text = case(("", cell, calibration, kinematics), nu, 0.002, (0.018, 0.078, 0.018), CLAMP + TIP_LOAD, TIP_PROBE)
+    return run(koshi, directory, plain(text, "yxz") if calibration == "paper" else text)
+
+
+def cost(koshi, directory, cell, calibration):
+    """Seconds per node and step of both kinematics, the least of three turns."""
+    least = {}
+    for _ in range(3):
+        for kinematics in KINEMATICS:
+            text = case(("", cell, calibration, kinematics), 0.18, 0.001, (0.08, 0.08, 0.08), "", "")
+            text = text.replace('type = "static"', 'type = "dynamic"\nduration = 2e-5\ntime_step = 5e-7')
+            text = text.replace("tolerance = 1e-9", 'damping = { kind = "local", factor = 0.8 }\nallow_unstable_step = true')
+            speed = run(koshi, directory, text)["performance"]["node_steps_per_second"]
+            least[kinematics] = min(least.get(kinematics, math.inf), 1 / speed)
+    return least
+
+
+def main():
+    root = pathlib.Path(__file__).resolve().parent.parent
+    arguments = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    arguments.add_argument("--koshi", default=root / "build/release/koshi", type=pathlib.Path)
+    koshi = arguments.parse_args().koshi.resolve()
+    with tempfile.TemporaryDirectory() as name:
+        directory = pathlib.Path(name)
+        print("| paper's analyses, full springs | rotational | least-squares |\n|---|---|---|")
+        for cell in ("cube-I", "cube-II", "cube-III"):
+            both = [uniaxial(koshi, directory, cell, k) for k in KINEMATICS if (cell, k) != ("cube-I", "rotational")]
+            texts = ["%.4f / %.4f" % value for value in both]
+            print(f"| {cell}: E/E0 / nu/nu0 | " + " | ".join(["–"] * (2 - len(texts)) + texts) + " |")
+        for cell in ("cube-II", "cube-III"):
+            both = [cantilever(koshi, directory, cell, "paper", k, 0.18) for k in KINEMATICS]
+            print(f"| {cell}: cantilever [cm] | " +
+                  " | ".join("%.5f" % (100 * b["probes"]["tip"]["displacement"][0]) for b in both) + " |")
+
+        print("\n| exact springs, d = 0.2 cm | rotational [cm] | error | least-squares [cm] | error |\n|---|---|---|---|---|")
+        unknowns = []
+        for nu, reference in CONVERGED.items():
+            both = [cantilever(koshi, directory, "cube-III", "bending-exact", k, nu) for k in KINEMATICS]
+            unknowns = [b["analysis"]["unknowns"] for b in both]
+            texts = ["%.6f | %+.2f %%" % (u, 100 * (u / reference - 1))
+                     for u in (100 * b["probes"]["tip"]["displacement"][0] for b in both)]
+            print(f"| nu = {nu:g} | " + " | ".join(texts) + " |")
+        print(f"\nUnknowns of the cantilever: {unknowns[0]} and {unknowns[1]}.")
+
+        print("\n| cost per node and step [ns], 531 441 nodes | rotational | least-squares | ratio |\n|---|---|---|---|")
+        for cell, calibration in (("cube-I", "isotropic"), ("cube-II", "isotropic"), ("cube-III", "bending-exact")):
+            least = cost(koshi, directory, cell, calibration)
+            a, b = (1e9 * least[k] for k in KINEMATICS)
+            print(f"| {cell}, {calibration} | {a:.0f} | {b:.0f} | {a / b:.2f} |")
+
+    print("\n| rigid rotation | strain left, both | misfit of node rotations |\n|---|---|---|")
+    for degrees in (0.1, 1, 10):
+        angle = math.radians(degrees)
+        print(f"| {degrees:g} degrees | {math.cos(angle) - 1:.3e} | {angle - math.sin(angle):.1e} |")
+
+
+if __name__ == "__main__":
+    main()
