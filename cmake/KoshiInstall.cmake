@@ -5,7 +5,7 @@ set(KOSHI_CMAKE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/koshi)
 install(TARGETS koshi EXPORT koshiTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(TARGETS koshi_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/koshi TYPE INCLUDE)
-install(FILES README.md LICENSE CITATION.cff CHANGELOG.md TYPE DOC)
+install(FILES README.md README.ja.md LICENSE CITATION.cff CHANGELOG.md TYPE DOC)
 
 # Man page, from the program's own help, and completion.
 install(FILES apps/koshi/koshi.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME koshi)

@@ -5,6 +5,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 scripts/setup.sh
 cmake --preset release
-cmake --build --preset release --parallel "$(nproc)"
+cmake --build --preset release --parallel "$(nproc)" --target koshi_app koshi_report
 build/release/koshi paper --out out/paper
 echo "The tables, curves and fields are in $PWD/out/paper: start with paper.md or open report.html."

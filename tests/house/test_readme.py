@@ -1,4 +1,4 @@
-"""The case shown in the README is valid. Usage: test_readme.py PROGRAM"""
+"""The case shown in both READMEs is the same and valid. Usage: test_readme.py PROGRAM"""
 
 import re
 import subprocess
@@ -6,9 +6,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-readme = (Path(__file__).parents[2] / "README.md").read_text()
-cases = re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
-assert len(cases) == 1, f"{len(cases)} cases in the README"
+cases = []
+for name in ("README.md", "README.ja.md"):
+    readme = (Path(__file__).parents[2] / name).read_text(encoding="utf-8")
+    cases += re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
+assert len(cases) == 2 and cases[0] == cases[1], cases
 
 with tempfile.TemporaryDirectory() as folder:
     case = Path(folder, "beam.toml")
