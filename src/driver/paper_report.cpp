@@ -5,8 +5,10 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/log.h"
 #include "driver/report.h"
 #include "io/files.h"
+#include "koshi/error.h"
 
 namespace koshi::driver {
 namespace {
@@ -140,7 +142,12 @@ void write_paper(const PaperStudy& study, const std::filesystem::path& directory
   io::replace_file(directory / "paper.md", paper_markdown(study));
   io::replace_file(directory / "paper.json", json.dump(2) + "\n");
   io::replace_file(directory / "fig7.csv", curves_csv(study));
-  write_report_page(directory / "report.html", page(study, cantilever));
+  // The numbers stand without the page, whose template is only there when it was built.
+  try {
+    write_report_page(directory / "report.html", page(study, cantilever));
+  } catch (const RunError& error) {
+    log_warning(error.what());
+  }
 }
 
 }  // namespace koshi::driver
