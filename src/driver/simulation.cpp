@@ -130,11 +130,13 @@ void Simulation::check_divergence(const mechanics::Balance& balance, const Obser
   std::array<double, 4> at{own[0], own[1], own[2], largest};
   communicator.broadcast(at, rank);
   const double dt = state_->step > 0 ? state_->time / static_cast<double>(state_->step) : 0;
+  const lattice::Grid& grid = model_->lattice.grid;
+  const auto index = [&](std::size_t a) { return std::llround((at[a] - grid.origin[a]) / grid.d); };
   const std::string kept = observer.diverged ? observer.diverged(*state_) : "";
-  throw RunError(
-      fmt::format("the run diverged at or before step {} (t = {:.6g} s): the node at ({:.4g}, {:.4g}, {:.4g}) m "
-                  "has moved {:.3g} m; use a smaller time_step than {:.3g} s (or \"auto\"), or check loads and units{}",
-                  state_->step, state_->time, at[0], at[1], at[2], at[3], dt, kept));
+  throw RunError(fmt::format(
+      "the run diverged at or before step {} (t = {:.6g} s): node ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m "
+      "has moved {:.3g} m; use a smaller time_step than {:.3g} s (or \"auto\"), or check loads and units{}",
+      state_->step, state_->time, index(0), index(1), index(2), at[0], at[1], at[2], at[3], dt, kept));
 }
 
 Outcome Simulation::run_explicit(const Observer& observer) {
