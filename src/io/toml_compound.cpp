@@ -216,8 +216,13 @@ Form<model::History> form(Tag<model::History>) {
       .expected = [](const Spec&) { return std::string("a list of pairs such as [[\"0 s\", 0], [\"1 s\", 1]]"); },
       .schema =
           [](const Spec&, Json& out) {
-            out = Json{
-                {"type", "array"}, {"items", {{"type", "array"}, {"minItems", 2}, {"maxItems", 2}}}, {"minItems", 1}};
+            Spec time;
+            time.dimension = Dimension::time;
+            const Json times = schema_of(Tag<double>{}, time);
+            const Json factors = schema_of(Tag<double>{}, Spec{});
+            const Json pair{
+                {"type", "array"}, {"prefixItems", Json::array({times, factors})}, {"minItems", 2}, {"maxItems", 2}};
+            out = Json{{"type", "array"}, {"items", pair}, {"minItems", 1}};
           },
   };
 }

@@ -22,6 +22,11 @@ namespace koshi::io {
 
 using Json = nlohmann::ordered_json;
 
+/// Values a number may have; unset: no limit.
+struct Range {
+  std::optional<double> above{}, at_least{}, below{}, at_most{};
+};
+
 /// What a form must know of its key.
 struct Spec {
   std::string name;  ///< of the key, for messages
@@ -30,6 +35,7 @@ struct Spec {
   std::string unset_word{};               ///< the word that stands for an unset value ("auto"); empty: none
   std::vector<std::string> allowed{};     ///< of a list of words; empty: any
   std::string title{};                    ///< of a nested table in messages; empty: [name]
+  Range range{};                          ///< for the schema; model::check refuses what lies outside
 };
 
 template <class T>

@@ -15,7 +15,8 @@ namespace koshi::io {
 struct KeyInfo {
   Spec spec;
   bool required = false;    ///< where it applies
-  std::string description;  ///< one sentence
+  std::string description;  ///< sentences
+  std::string example;      ///< TOML text of a value; empty: the one of its form
   /// Where the key has a meaning, e.g. `shape "sphere"`; empty: everywhere.
   std::string condition;
   /// The keys that the condition looks at. When one of them is given by --set, a key of the file that lost its meaning
@@ -52,6 +53,8 @@ struct About {
   std::string unset_word{};
   std::vector<std::string> allowed{};
   std::string title{};
+  Range range{};
+  std::string example{};
 };
 
 /// A key that sets `member`: a pointer to member, or a function from S& to a reference.
@@ -60,8 +63,9 @@ Key<S> key(const std::string& name, Member member, const std::string& descriptio
   using T = std::remove_cvref_t<std::invoke_result_t<Member, S&>>;
   const Form<T> of_type = form(Tag<T>{});
   Key<S> result;
-  result.spec = {name, about.dimension, about.rotation, about.unset_word, about.allowed, about.title};
+  result.spec = {name, about.dimension, about.rotation, about.unset_word, about.allowed, about.title, about.range};
   result.required = about.required;
+  result.example = about.example;
   result.description = description;
   result.expected = of_type.expected;
   result.schema = of_type.schema;

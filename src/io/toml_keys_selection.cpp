@@ -13,14 +13,15 @@ namespace {
 template <class D>
 std::vector<Key<D>> selection_keys(const std::string& name_description, bool name_required) {
   return {
-      key<D>("name", &D::name, name_description, {.required = name_required}),
+      key<D>("name", &D::name, name_description, {.required = name_required, .example = R"("top")"}),
       key<D>(
           "face", [](auto& s) -> auto& { return s.selection.face; }, "Selects the nodes of a face of the box."),
       key<D>("box", [](auto& s) -> auto& { return s.selection.box; },
-             "Selects the nodes inside a box or on its border.", {.dimension = Dimension::length}),
+             "Selects the nodes inside a box or on its border.",
+             {.dimension = Dimension::length, .example = "{min = [0, 0, 0], max = [\"1 cm\", \"1 cm\", 0]}"}),
       key<D>("point", [](auto& s) -> auto& { return s.selection.point; },
              "Selects the nearest node, at most half a spacing away in every direction.",
-             {.dimension = Dimension::length}),
+             {.dimension = Dimension::length, .example = R"(["0.8 cm", "7.8 cm", "1.0 cm"])"}),
   };
 }
 
@@ -46,26 +47,30 @@ const std::vector<Key<BoundaryDefinition>>& keys_of(Tag<BoundaryDefinition>) {
   using D = BoundaryDefinition;
   const std::string motion = "a boundary with displacement, velocity or twist";
   const std::vector<std::string> motions{"displacement", "velocity", "twist"};
-  static const std::vector<Key<D>> keys =
-      joined(selection_keys<D>("Name for messages and --set; unset: \"boundary 1\" and so on.", false),
-             {
-                 key<D>("fix", &D::fix, "Components held at zero; rotations count only with rotational kinematics."),
-                 key<D>("displacement", &D::displacement, "Prescribed displacements and rotations.",
-                        {.dimension = Dimension::length, .rotation = Dimension::angle}),
-                 key<D>("velocity", &D::velocity, "Prescribed velocities and angular velocities.",
-                        {.dimension = Dimension::velocity, .rotation = Dimension::angular_velocity}),
-                 key<D>("twist", &D::twist, "Angle by which the selection turns as a rigid body about x, y or z.",
-                        {.dimension = Dimension::angle}),
-                 key<D>("center", &D::center, "Point on the axis of the twist; unset: the mean of the selected nodes.",
-                        {.dimension = Dimension::length})
-                     .only_for("a boundary with twist", {"twist"}, has_twist),
-                 key<D>("ramp", &D::ramp, "Time over which the motion rises linearly from zero.",
-                        {.dimension = Dimension::time})
-                     .only_for(motion, motions, moves),
-                 key<D>("history", &D::history,
-                        "Factor on the motion over time: pairs [time, factor], linear between, constant outside.")
-                     .only_for(motion, motions, moves),
-             });
+  static const std::vector<Key<D>> keys = joined(
+      selection_keys<D>("Name for messages and --set; unset: \"boundary 1\" and so on.", false),
+      {
+          key<D>("fix", &D::fix, "Components held at zero; rotations count only with rotational kinematics.",
+                 {.example = R"(["x", "y", "z", "rx", "ry", "rz"])"}),
+          key<D>("displacement", &D::displacement, "Prescribed displacements and rotations.",
+                 {.dimension = Dimension::length, .rotation = Dimension::angle, .example = R"({z = "-0.08 mm"})"}),
+          key<D>("velocity", &D::velocity, "Prescribed velocities and angular velocities.",
+                 {.dimension = Dimension::velocity,
+                  .rotation = Dimension::angular_velocity,
+                  .example = R"({z = "-0.1 cm/s"})"}),
+          key<D>("twist", &D::twist, "Angle by which the selection turns as a rigid body about x, y or z.",
+                 {.dimension = Dimension::angle, .example = R"({z = "1 deg"})"}),
+          key<D>("center", &D::center, "Point on the axis of the twist; unset: the mean of the selected nodes.",
+                 {.dimension = Dimension::length, .example = R"(["5 mm", "5 mm", "0 mm"])"})
+              .only_for("a boundary with twist", {"twist"}, has_twist),
+          key<D>("ramp", &D::ramp, "Time over which the motion rises linearly from zero.",
+                 {.dimension = Dimension::time, .range = {.at_least = 0}, .example = R"("10 ms")"})
+              .only_for(motion, motions, moves),
+          key<D>("history", &D::history,
+                 "Factor on the motion over time: pairs [time, factor], linear between, constant outside.",
+                 {.example = R"([["0 s", 0], ["1 s", 1]])"})
+              .only_for(motion, motions, moves),
+      });
   return keys;
 }
 
@@ -74,17 +79,20 @@ const std::vector<Key<LoadDefinition>>& keys_of(Tag<LoadDefinition>) {
   static const std::vector<Key<D>> keys =
       joined(selection_keys<D>("Name for messages and --set; unset: \"load 1\" and so on.", false),
              {
-                 key<D>("force", &D::force, "Total force on the selection.", {.dimension = Dimension::force}),
-                 key<D>("traction", &D::traction, "Force per area.", {.dimension = Dimension::pressure}),
+                 key<D>("force", &D::force, "Total force on the selection.",
+                        {.dimension = Dimension::force, .example = R"(["9.8 N", "0 N", "0 N"])"}),
+                 key<D>("traction", &D::traction, "Force per area.",
+                        {.dimension = Dimension::pressure, .example = R"([0, 0, "-2 MPa"])"}),
                  key<D>("pressure", &D::pressure, "Pressure against the outward normal of the face.",
-                        {.dimension = Dimension::pressure}),
+                        {.dimension = Dimension::pressure, .example = R"("2 MPa")"}),
                  key<D>("acceleration", &D::acceleration, "Body force per mass, on the whole body.",
-                        {.dimension = Dimension::acceleration}),
+                        {.dimension = Dimension::acceleration, .example = R"([0, 0, "-9.80665 m/s^2"])"}),
                  key<D>("distribution", &D::distribution,
                         "The total force is spread by the area each node stands for, or evenly over the nodes.")
                      .only_for("a load with force", {"force"}, [](const D& load) { return load.force.has_value(); }),
                  key<D>("history", &D::history,
-                        "Factor on the load over time: pairs [time, factor], linear between, constant outside."),
+                        "Factor on the load over time: pairs [time, factor], linear between, constant outside.",
+                        {.example = R"([["0 s", 0], ["1 s", 1]])"}),
              });
   return keys;
 }

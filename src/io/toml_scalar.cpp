@@ -21,6 +21,17 @@ void unknown_word(const Place& place, const std::string& what, const std::string
 
 void words_schema(const std::vector<std::string>& words, Json& out) { out["enum"] = words; }
 
+namespace {
+
+void range_schema(const Range& range, Json& out) {
+  if (range.above) out["exclusiveMinimum"] = *range.above;
+  if (range.at_least) out["minimum"] = *range.at_least;
+  if (range.below) out["exclusiveMaximum"] = *range.below;
+  if (range.at_most) out["maximum"] = *range.at_most;
+}
+
+}  // namespace
+
 // Control characters are the only ones that TOML does not take as they are.
 std::string toml_text(const std::string& text) {
   std::string result = "\"";
@@ -82,6 +93,8 @@ Form<double> form(Tag<double>) {
             out["type"] = {"number", "string"};
             const auto& w = words(spec.dimension);
             if (!w.si_unit.empty()) out["unit"] = w.si_unit;
+            range_schema(spec.range, out);
+            if (!w.si_unit.empty()) out["examples"] = {w.example};
           },
   };
 }

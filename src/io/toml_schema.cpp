@@ -27,6 +27,11 @@ Json json_of(const Value& value) {
   return std::visit(Convert{}, value.data);
 }
 
+// The value that a TOML text stands for.
+Json json_of_text(const std::string& text) {
+  return json_of(parse_toml("value = " + text, "schema").table()->front().value);
+}
+
 }  // namespace
 
 void object_schema(const std::vector<Described>& keys, Json& out) {
@@ -36,9 +41,11 @@ void object_schema(const std::vector<Described>& keys, Json& out) {
     Json& schema = properties[key.spec.name];
     key.schema(key.spec, schema);
     schema["description"] = key.description + (key.condition.empty() ? "" : " Only for " + key.condition + ".");
-    if (!default_text.empty())
-      schema["default"] = json_of(parse_toml("value = " + default_text, "default").table()->front().value);
+    if (!default_text.empty()) schema["default"] = json_of_text(default_text);
+    if (!key.example.empty()) schema["examples"] = Json::array({json_of_text(key.example)});
     if (key.required && key.condition.empty()) required.push_back(key.spec.name);
+    // JSON Schema leaves further keywords to whoever reads them.
+    if (key.required && !key.condition.empty()) schema["requiredWhereItApplies"] = true;
   }
   out = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) out["required"] = required;

@@ -1,10 +1,8 @@
-// The resolved input and the schema: written from the same table of keys that reads.
+// The resolved input: written from the same table of keys that reads.
 #include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
-#include <nlohmann/json.hpp>
-#include <set>
 #include <sstream>
 
 #include "koshi/input.h"
@@ -12,8 +10,6 @@
 
 namespace koshi::io {
 namespace {
-
-using Json = nlohmann::json;
 
 std::string contents(const std::filesystem::path& path) {
   std::stringstream text;
@@ -135,101 +131,6 @@ TEST(ResolvedInput, FilesBecomeAbsolute) {
   const std::string resolved = resolved_toml(read_case_text(text, "/cases/here/case.toml", overrides));
   EXPECT_NE(resolved.find("file = \"/cases/here/part.stl\""), std::string::npos) << resolved;
   EXPECT_NE(resolved.find("start_from = \"/cases/before\""), std::string::npos) << resolved;
-}
-
-// Keys of the schema by table, "" for the top.
-std::map<std::string, std::set<std::string>> schema_keys() {
-  const Json schema = Json::parse(schema_json());
-  const auto keys = [](const Json& table) {
-    std::set<std::string> names;
-    for (const auto& [name, key] : table.at("properties").items()) names.insert(name);
-    return names;
-  };
-  std::map<std::string, std::set<std::string>> result;
-  result[""] = keys(schema);
-  for (const auto& [name, table] : schema.at("properties").items()) {
-    if (table.contains("items")) result[name] = keys(table.at("items"));
-    if (table.contains("properties")) result[name] = keys(table);
-    if (name == "material") result[name] = keys(table.at("additionalProperties"));
-  }
-  result["damping"] = keys(schema.at("properties").at("analysis").at("properties").at("damping"));
-  return result;
-}
-
-// The reader names the keys it knows when it meets one that resembles none.
-std::set<std::string> known_keys(const std::string& override_path) {
-  const std::vector<std::string> overrides{override_path + "qqqqqqqqqq=1"};
-  const std::string message = tests::message_of(tests::right_case, overrides);
-  std::set<std::string> names;
-  std::size_t at = message.find("known: ");
-  EXPECT_NE(at, std::string::npos) << message;
-  while ((at = message.find('"', at)) != std::string::npos) {
-    const std::size_t end = message.find('"', at + 1);
-    names.insert(message.substr(at + 1, end - at - 1));
-    at = end + 1;
-  }
-  return names;
-}
-
-TEST(Schema, ListsTheKeysOfTheReader) {
-  const auto schema = schema_keys();
-  const std::map<std::string, std::string> paths{
-      {"", ""},
-      {"lattice", "lattice."},
-      {"body", "body."},
-      {"material", "material.rock."},
-      {"region", "region.0."},
-      {"boundary", "boundary.top."},
-      {"load", "load.push."},
-      {"analysis", "analysis."},
-      {"damping", "analysis.damping."},
-      {"probe", "probe.tip."},
-      {"output", "output."},
-  };
-  ASSERT_EQ(schema.size(), paths.size());
-  std::size_t count = 0;
-  for (const auto& [table, path] : paths) {
-    EXPECT_EQ(schema.at(table), known_keys(path)) << table;
-    count += schema.at(table).size();
-  }
-  EXPECT_EQ(count, 10u + 7 + 6 + 3 + 12 + 11 + 10 + 8 + 3 + 6 + 6);
-}
-
-TEST(Schema, TellsTypeDefaultAndMeaning) {
-  const Json schema = Json::parse(schema_json());
-  const Json& lattice = schema.at("properties").at("lattice");
-  EXPECT_EQ(lattice.at("required"), Json({"spacing"}));
-  EXPECT_EQ(lattice.at("additionalProperties"), false);
-  EXPECT_EQ(lattice.at("properties").at("spacing"),
-            Json::parse(R"({"type": ["number", "string"], "unit": "m", "description": "Side d of a cell."})"));
-  EXPECT_EQ(lattice.at("properties").at("springs"), Json::parse(R"({"enum": ["shared", "plain"], "default": "shared",
-      "description": "Springs belong to cells (shared), or every bond carries its full stiffness."})"));
-  const Json& boundary = schema.at("properties").at("boundary").at("items").at("properties");
-  EXPECT_EQ(boundary.at("displacement").at("properties").at("z").at("unit"), "m");
-  EXPECT_EQ(boundary.at("displacement").at("properties").at("rz").at("unit"), "rad");
-  EXPECT_EQ(boundary.at("velocity").at("properties").at("rz").at("unit"), "rad/s");
-  EXPECT_EQ(boundary.at("fix"), Json::parse(R"({"type": "array", "items": {"enum": ["x", "y", "z", "rx", "ry", "rz"]},
-      "uniqueItems": true, "description":
-      "Components held at zero; rotations count only with rotational kinematics."})"));
-  const Json& analysis = schema.at("properties").at("analysis").at("properties");
-  EXPECT_EQ(analysis.at("time_step").at("default"), "auto");
-  EXPECT_EQ(analysis.at("damping").at("default"), Json::parse(R"({"kind": "local", "factor": 0.8})"));
-  EXPECT_EQ(analysis.at("damping").at("properties").at("rate").at("description"),
-            "Damping force over mass times velocity. Only for kind \"viscous\".");
-  EXPECT_EQ(schema.at("properties").at("output").at("properties").at("fields").at("default"), Json({"displacement"}));
-  // Every key is described by one sentence.
-  int described = 0;
-  for (const auto& [name, table] : schema.at("properties").items()) {
-    const Json& keys = table.contains("items") ? table.at("items") : table;
-    if (!keys.contains("properties")) continue;
-    for (const auto& [key, value] : keys.at("properties").items()) {
-      const std::string description = value.at("description");
-      EXPECT_GT(description.size(), 5u) << key;
-      EXPECT_EQ(description.back(), '.') << key;
-      ++described;
-    }
-  }
-  EXPECT_EQ(described, 7 + 6 + 12 + 11 + 10 + 8 + 6 + 6);
 }
 
 }  // namespace

@@ -1,0 +1,224 @@
+// The schema of the input: made from the same table of keys that reads, and true to it.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "io/toml_key.h"
+#include "koshi/input.h"
+#include "support/broken_input.h"
+
+namespace koshi::io {
+namespace {
+
+// Equal whatever the order of the keys, unlike the writer's.
+using Json = nlohmann::json;
+
+// Keys of the schema by table, "" for the top.
+std::map<std::string, std::set<std::string>> schema_keys() {
+  const Json schema = Json::parse(schema_json());
+  const auto keys = [](const Json& table) {
+    std::set<std::string> names;
+    for (const auto& [name, key] : table.at("properties").items()) names.insert(name);
+    return names;
+  };
+  std::map<std::string, std::set<std::string>> result;
+  result[""] = keys(schema);
+  for (const auto& [name, table] : schema.at("properties").items()) {
+    if (table.contains("items")) result[name] = keys(table.at("items"));
+    if (table.contains("properties")) result[name] = keys(table);
+    if (name == "material") result[name] = keys(table.at("additionalProperties"));
+  }
+  result["damping"] = keys(schema.at("properties").at("analysis").at("properties").at("damping"));
+  return result;
+}
+
+// The reader names the keys it knows when it meets one that resembles none.
+std::set<std::string> known_keys(const std::string& override_path) {
+  const std::vector<std::string> overrides{override_path + "qqqqqqqqqq=1"};
+  const std::string message = tests::message_of(tests::right_case, overrides);
+  std::set<std::string> names;
+  std::size_t at = message.find("known: ");
+  EXPECT_NE(at, std::string::npos) << message;
+  while ((at = message.find('"', at)) != std::string::npos) {
+    const std::size_t end = message.find('"', at + 1);
+    names.insert(message.substr(at + 1, end - at - 1));
+    at = end + 1;
+  }
+  return names;
+}
+
+TEST(Schema, ListsTheKeysOfTheReader) {
+  const auto schema = schema_keys();
+  const std::map<std::string, std::string> paths{
+      {"", ""},
+      {"lattice", "lattice."},
+      {"body", "body."},
+      {"material", "material.rock."},
+      {"region", "region.0."},
+      {"boundary", "boundary.top."},
+      {"load", "load.push."},
+      {"analysis", "analysis."},
+      {"damping", "analysis.damping."},
+      {"probe", "probe.tip."},
+      {"output", "output."},
+  };
+  ASSERT_EQ(schema.size(), paths.size());
+  std::size_t count = 0;
+  for (const auto& [table, path] : paths) {
+    EXPECT_EQ(schema.at(table), known_keys(path)) << table;
+    count += schema.at(table).size();
+  }
+  EXPECT_EQ(count, 10u + 7 + 6 + 3 + 12 + 11 + 10 + 8 + 3 + 6 + 6);
+}
+
+TEST(Schema, TellsTypeDefaultAndMeaning) {
+  const Json schema = Json::parse(schema_json());
+  const Json& lattice = schema.at("properties").at("lattice");
+  EXPECT_EQ(lattice.at("required"), Json({"spacing"}));
+  EXPECT_EQ(lattice.at("additionalProperties"), false);
+  EXPECT_EQ(lattice.at("properties").at("spacing"),
+            Json::parse(R"({"type": ["number", "string"], "unit": "m", "exclusiveMinimum": 0, "examples": ["0.2 cm"],
+      "description": "Side d of a cell."})"));
+  EXPECT_EQ(lattice.at("properties").at("springs"), Json::parse(R"({"enum": ["shared", "plain"], "default": "shared",
+      "description": "Springs belong to cells (shared), or every bond carries its full stiffness."})"));
+  const Json& boundary = schema.at("properties").at("boundary").at("items").at("properties");
+  EXPECT_EQ(boundary.at("displacement").at("properties").at("z").at("unit"), "m");
+  EXPECT_EQ(boundary.at("displacement").at("properties").at("rz").at("unit"), "rad");
+  EXPECT_EQ(boundary.at("velocity").at("properties").at("rz").at("unit"), "rad/s");
+  EXPECT_EQ(boundary.at("fix"), Json::parse(R"({"type": "array", "items": {"enum": ["x", "y", "z", "rx", "ry", "rz"]},
+      "uniqueItems": true, "examples": [["x", "y", "z", "rx", "ry", "rz"]], "description":
+      "Components held at zero; rotations count only with rotational kinematics."})"));
+  const Json& analysis = schema.at("properties").at("analysis").at("properties");
+  EXPECT_EQ(analysis.at("time_step").at("default"), "auto");
+  EXPECT_EQ(analysis.at("damping").at("default"), Json::parse(R"({"kind": "local", "factor": 0.8})"));
+  EXPECT_EQ(analysis.at("damping").at("properties").at("rate").at("description"),
+            "Damping force over mass times velocity. Only for kind \"viscous\".");
+  EXPECT_EQ(analysis.at("damping").at("properties").at("rate").at("requiredWhereItApplies"), true);
+  EXPECT_EQ(schema.at("properties").at("output").at("properties").at("fields").at("default"), Json({"displacement"}));
+  // Every key is described by one sentence.
+  int described = 0;
+  for (const auto& [name, table] : schema.at("properties").items()) {
+    const Json& keys = table.contains("items") ? table.at("items") : table;
+    if (!keys.contains("properties")) continue;
+    for (const auto& [key, value] : keys.at("properties").items()) {
+      const std::string description = value.at("description");
+      EXPECT_GT(description.size(), 5u) << key;
+      EXPECT_EQ(description.back(), '.') << key;
+      ++described;
+    }
+  }
+  EXPECT_EQ(described, 7 + 6 + 12 + 11 + 10 + 8 + 6 + 6);
+}
+
+// The example of each key is what its reader takes, and sets something.
+template <class S>
+int read_examples() {
+  int count = 0;
+  for (const auto& key : keys_of(Tag<S>{})) {
+    if (key.example.empty()) continue;
+    const Value value = parse_toml("value = " + key.example, "example").table()->front().value;
+    S s;
+    EXPECT_NO_THROW(key.read(value, key.spec, s)) << key.spec.name << " = " << key.example;
+    EXPECT_FALSE(key.write(s, key.spec).empty()) << key.spec.name;
+    ++count;
+  }
+  return count;
+}
+
+TEST(Schema, ExamplesAreRight) {
+  using namespace model;
+  const int count = read_examples<Definition>() + read_examples<LatticeDefinition>() + read_examples<BodyDefinition>() +
+                    read_examples<MaterialDefinition>() + read_examples<RegionDefinition>() +
+                    read_examples<BoundaryDefinition>() + read_examples<LoadDefinition>() +
+                    read_examples<AnalysisDefinition>() + read_examples<DampingDefinition>() +
+                    read_examples<ProbeDefinition>() + read_examples<OutputDefinition>();
+  EXPECT_EQ(count, 1 + 3 + 6 + 3 + 11 + 10 + 8 + 5 + 1 + 3 + 5);
+}
+
+// A key without a list of words, a switch or a nested table shows an example.
+TEST(Schema, EveryValueHasAnExample) {
+  const Json schema = Json::parse(schema_json());
+  int count = 0;
+  for (const auto& [name, table] : schema.at("properties").items()) {
+    const Json& nested = name == "material" ? table.at("additionalProperties") : table;
+    const Json& keys = nested.contains("items") ? nested.at("items") : nested;
+    if (!keys.contains("properties")) continue;
+    for (const auto& [key, value] : keys.at("properties").items()) {
+      if (value.contains("enum") || value.value("type", Json()) == "boolean") continue;
+      EXPECT_TRUE(value.contains("examples")) << name << '.' << key;
+      ++count;
+    }
+  }
+  EXPECT_EQ(count, 3 + 6 + 3 + 11 + 10 + 9 + 6 + 2 + 5);
+}
+
+// What lies outside a range of the schema is refused by the check, what lies on an inclusive border is not.
+TEST(Schema, RangesAreThoseOfTheCheck) {
+  const std::filesystem::path corpus = std::filesystem::path(KOSHI_SOURCE_DIR) / "tests/fuzz/corpus/input";
+  struct Place {
+    std::string path;
+    const char* file = "stepped.toml";
+  };
+  const std::map<std::string, Place> places{
+      {"lattice.spacing", {"lattice.spacing"}},
+      {"body.size", {"body.size.1"}},
+      {"material.youngs_modulus", {"material.soft.youngs_modulus"}},
+      {"material.poissons_ratio", {"material.soft.poissons_ratio"}},
+      {"material.density", {"material.soft.density"}},
+      {"region.radius", {"region.1.radius"}},
+      {"region.scale", {"region.4.scale"}},
+      {"boundary.ramp", {"boundary.1.ramp"}},
+      {"analysis.tolerance", {"analysis.tolerance"}},
+      {"analysis.duration", {"analysis.duration"}},
+      {"analysis.time_step", {"analysis.time_step"}},
+      {"analysis.safety", {"analysis.safety"}},
+      {"damping.factor", {"analysis.damping.factor"}},
+      {"damping.rate", {"analysis.damping.rate", "image.toml"}},
+      {"output.every", {"output.every"}},
+      {"output.history_every", {"output.history_every"}},
+      {"output.checkpoint_every", {"output.checkpoint_every"}},
+      {"output.checkpoint_every_wall", {"output.checkpoint_every_wall"}},
+  };
+  std::set<std::string> seen;
+  const auto expect = [&](const std::string& name, double value, bool right) {
+    ASSERT_TRUE(places.contains(name)) << name;
+    const auto& [path, file] = places.at(name);
+    const std::vector<std::string> overrides{fmt::format("{}={}", path, value)};
+    std::string message;
+    try {
+      read_case(corpus / file, overrides);
+    } catch (const InputError& error) {
+      message = error.what();
+    }
+    EXPECT_EQ(message.empty(), right) << overrides[0] << ": " << message;
+    seen.insert(name);
+  };
+  const auto check_ranges = [&](const std::string& table, const Json& keys) {
+    for (const auto& [key, value] : keys.items()) {
+      const Json& number = value.contains("minItems") && value.at("items").contains("unit") ? value.at("items") : value;
+      const std::string name = table + "." + key;
+      if (number.contains("exclusiveMinimum")) expect(name, number.at("exclusiveMinimum"), false);
+      if (number.contains("exclusiveMaximum")) expect(name, number.at("exclusiveMaximum"), false);
+      for (const char* border : {"minimum", "maximum"}) {
+        if (!number.contains(border)) continue;
+        const double at = number.at(border);
+        expect(name, at, true);
+        expect(name, at + (border == std::string("minimum") ? -0.01 : 0.01), false);
+      }
+    }
+  };
+  const Json schema = Json::parse(schema_json());
+  for (const auto& [name, table] : schema.at("properties").items()) {
+    const Json& nested = name == "material" ? table.at("additionalProperties") : table;
+    const Json& keys = nested.contains("items") ? nested.at("items") : nested;
+    if (keys.contains("properties")) check_ranges(name, keys.at("properties"));
+  }
+  check_ranges("damping", schema.at("properties").at("analysis").at("properties").at("damping").at("properties"));
+  EXPECT_EQ(seen.size(), places.size());
+}
+
+}  // namespace
+}  // namespace koshi::io
