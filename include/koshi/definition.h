@@ -137,12 +137,19 @@ struct AnalysisDefinition {
 
 /// [[probe]]
 struct ProbeDefinition {
-  enum class Quantity { displacement, rotation, velocity, reaction, stress, strain };
+  enum class Quantity { displacement, rotation, velocity, reaction, moment, stress, strain };
   enum class Reduce { mean, area_mean, sum, max };
   std::string name;
   Selection selection;
   Quantity quantity = Quantity::displacement;
-  std::optional<Reduce> reduce;  ///< unset: sum for reactions, else mean
+  std::optional<Reduce> reduce;  ///< unset: sum for reactions and moments, else mean
+  std::optional<Vec3> center;    ///< of a moment of the reactions [m]; unset: mean position of the selected nodes
+
+  /// The reduction in force: the one set, else the default of the quantity.
+  Reduce reduction() const {
+    const bool sums = quantity == Quantity::reaction || quantity == Quantity::moment;
+    return reduce.value_or(sums ? Reduce::sum : Reduce::mean);
+  }
   bool operator==(const ProbeDefinition&) const = default;
 };
 

@@ -38,6 +38,7 @@ struct Probe {
   ProbeDefinition definition;
   std::vector<std::pair<std::int64_t, double>> nodes;
   double total = 0;
+  std::vector<Vec3> arms;  ///< of a moment: positions of the nodes from its centre [m]
 };
 
 struct Model {

@@ -177,10 +177,12 @@ class Probe:
     face: Face | None = None
     box: Mapping[Literal["min", "max"], Vector] | None = None
     point: Vector | None = None
-    quantity: Literal["displacement", "rotation", "velocity", "reaction", "stress", "strain"] | None = None
+    quantity: Literal["displacement", "rotation", "velocity", "reaction", "moment", "stress", "strain"] | None = None
     """default "displacement" """
     reduce: Literal["mean", "area-mean", "sum", "max"] | None = None
-    """default: sum for reactions, else mean"""
+    """default: sum for reactions and moments, else mean"""
+    center: Vector | None = None
+    """point about which a moment is taken, default the mean of the selected nodes"""
 
 
 @dataclass

@@ -134,7 +134,7 @@ SpringTables spring_tables(const model::Definition& definition, const nlohmann::
 nlohmann::ordered_json probe_tables(const model::Definition& definition, const nlohmann::ordered_json& summary) {
   json tables = json::array();
   for (const Quantity quantity : {Quantity::displacement, Quantity::rotation, Quantity::velocity, Quantity::reaction,
-                                  Quantity::stress, Quantity::strain}) {
+                                  Quantity::moment, Quantity::stress, Quantity::strain}) {
     const std::string name = mechanics::name_of(quantity), unit = mechanics::unit_of(quantity);
     json block = table({column("probe"), column("where")});
     const auto components = mechanics::component_names(quantity);

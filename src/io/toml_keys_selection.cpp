@@ -104,7 +104,12 @@ const std::vector<Key<ProbeDefinition>>& keys_of(Tag<ProbeDefinition>) {
              {
                  key<D>("quantity", &D::quantity, "What is reported."),
                  key<D>("reduce", &D::reduce,
-                        "How the values of several nodes become one; unset: sum for reactions, else mean."),
+                        "How the values of several nodes become one; unset: sum for reactions and moments, else mean."),
+                 key<D>("center", &D::center,
+                        "Point about which the reactions' moment is taken; unset: the mean of the selected nodes.",
+                        {.dimension = Dimension::length})
+                     .only_for("quantity \"moment\"", {"quantity"},
+                               [](const D& probe) { return probe.quantity == D::Quantity::moment; }),
              });
   return keys;
 }

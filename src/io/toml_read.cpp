@@ -41,10 +41,7 @@ void fill_in(const Value& root, model::Definition& definition) {
   number(definition.boundaries, "boundary");
   number(definition.loads, "load");
 
-  using Probe = model::ProbeDefinition;
-  for (Probe& probe : definition.probes)
-    if (!probe.reduce)
-      probe.reduce = probe.quantity == Probe::Quantity::reaction ? Probe::Reduce::sum : Probe::Reduce::mean;
+  for (auto& probe : definition.probes) probe.reduce = probe.reduction();
 }
 
 std::string contents(const std::filesystem::path& file) {

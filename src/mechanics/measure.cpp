@@ -58,6 +58,11 @@ class RowMask {
   std::vector<std::uint8_t> mask_;
 };
 
+bool needs_reactions(const model::Probe& probe) {
+  const Quantity quantity = probe.definition.quantity;
+  return quantity == Quantity::reaction || quantity == Quantity::moment;
+}
+
 struct Sums {
   ExactSum elastic, kinetic, residual, reference;
 
@@ -123,7 +128,7 @@ Measurement Meter::measure(model::State& state, double dt) {
   // Reactions are only kept at nodes of probes that ask for them.
   std::unordered_map<std::int64_t, std::array<double, 6>> wanted;
   for (const model::Probe& probe : model_.probes)
-    if (probe.definition.quantity == Quantity::reaction)
+    if (needs_reactions(probe))
       for (const auto& [node, weight] : probe.nodes) wanted[node] = {};
 
   Sums sums;
@@ -144,7 +149,7 @@ Measurement Meter::measure(model::State& state, double dt) {
   Measurement result{sums.total(model_.communicator), {}};
   for (const model::Probe& probe : model_.probes) {
     std::vector<std::array<double, 6>> reactions;
-    if (probe.definition.quantity == Quantity::reaction)
+    if (needs_reactions(probe))
       for (const auto& [node, weight] : probe.nodes) reactions.push_back(wanted[node]);
     result.probes.push_back(probe_value(probe, state, reactions));
   }
@@ -167,6 +172,10 @@ ProbeValue Meter::probe_value(const model::Probe& probe, const model::State& sta
     } else if (quantity == Quantity::rotation && model_.components() == 3) {
       const Vec3 w = node_state(model_.lattice, state.displacement, node).rotation;
       std::copy(w.begin(), w.end(), value.begin());
+    } else if (quantity == Quantity::moment) {
+      const auto& [fx, fy, fz, mx, my, mz] = node_reactions[p];
+      const Vec3 moment = cross(probe.arms[p], {fx, fy, fz}) + Vec3{mx, my, mz};
+      std::copy(moment.begin(), moment.end(), value.begin());
     } else {
       for (int c = 0; c < 3; ++c)
         value[static_cast<std::size_t>(c)] =
@@ -196,12 +205,13 @@ ProbeValue Meter::probe_value(const model::Probe& probe, const model::State& sta
 }
 
 std::string name_of(Quantity quantity) {
-  constexpr std::array<const char*, 6> names{"displacement", "rotation", "velocity", "reaction", "stress", "strain"};
+  constexpr std::array<const char*, 7> names{"displacement", "rotation", "velocity", "reaction",
+                                             "moment",       "stress",   "strain"};
   return names[static_cast<std::size_t>(quantity)];
 }
 
 std::string unit_of(Quantity quantity) {
-  constexpr std::array<const char*, 6> units{"m", "rad", "m/s", "N", "Pa", "1"};
+  constexpr std::array<const char*, 7> units{"m", "rad", "m/s", "N", "N m", "Pa", "1"};
   return units[static_cast<std::size_t>(quantity)];
 }
 

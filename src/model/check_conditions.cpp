@@ -149,6 +149,14 @@ void check_load(const Checker& check, const std::string& path, const LoadDefinit
   check_history(check, path + ".history", load.history);
 }
 
+void check_probe(const Checker& check, const std::string& path, const ProbeDefinition& probe) {
+  const std::string title = fmt::format("probe \"{}\"", probe.name);
+  check_selection(check, path, title, probe.selection);
+  if (probe.quantity == ProbeDefinition::Quantity::moment && probe.reduction() != ProbeDefinition::Reduce::sum)
+    check.fail(path + ".reduce", fmt::format("{} is a moment, which is a sum over its nodes; leave reduce out", title));
+  if (probe.center) check.finite(path + ".center", *probe.center);
+}
+
 }  // namespace
 
 void check_conditions(const Checker& check) {
@@ -161,8 +169,7 @@ void check_conditions(const Checker& check) {
   for (std::size_t i = 0; i < definition.loads.size(); ++i)
     check_load(check, fmt::format("load[{}]", i), definition.loads[i]);
   for (std::size_t i = 0; i < definition.probes.size(); ++i)
-    check_selection(check, fmt::format("probe[{}]", i), fmt::format("probe \"{}\"", definition.probes[i].name),
-                    definition.probes[i].selection);
+    check_probe(check, fmt::format("probe[{}]", i), definition.probes[i]);
 }
 
 }  // namespace koshi::model

@@ -84,6 +84,7 @@ inline constexpr auto choices<ProbeDefinition::Quantity> = std::to_array<Choice<
     {"rotation", ProbeDefinition::Quantity::rotation},
     {"velocity", ProbeDefinition::Quantity::velocity},
     {"reaction", ProbeDefinition::Quantity::reaction},
+    {"moment", ProbeDefinition::Quantity::moment},
     {"stress", ProbeDefinition::Quantity::stress},
     {"strain", ProbeDefinition::Quantity::strain},
 });

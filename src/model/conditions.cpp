@@ -170,10 +170,8 @@ std::vector<Probe> make_probes(const Model& model) {
   using Reduce = ProbeDefinition::Reduce;
   std::vector<Probe> probes;
   for (std::size_t p = 0; p < model.definition.probes.size(); ++p) {
-    Probe probe{model.definition.probes[p], {}, 0};
-    if (!probe.definition.reduce)
-      probe.definition.reduce =
-          probe.definition.quantity == ProbeDefinition::Quantity::reaction ? Reduce::sum : Reduce::mean;
+    Probe probe{model.definition.probes[p], {}, 0, {}};
+    probe.definition.reduce = probe.definition.reduction();
     const std::string path = fmt::format("probe[{}]", p);
     const auto nodes = nodes_of(model, probe.definition.selection, path, title("probe", probe.definition.name, p));
     const bool by_area = probe.definition.reduce == Reduce::area_mean;
@@ -181,6 +179,10 @@ std::vector<Probe> make_probes(const Model& model) {
     for (const SelectedNode& node : nodes) {
       probe.nodes.emplace_back(node.node, by_area ? node.area : 1.0);
       total += probe.nodes.back().second;
+    }
+    if (probe.definition.quantity == ProbeDefinition::Quantity::moment) {
+      const Vec3 center = probe.definition.center ? *probe.definition.center : mean_position(model, nodes);
+      for (const SelectedNode& node : nodes) probe.arms.push_back(model.lattice.grid.position(node.global) - center);
     }
     total.sum_ranks(model.communicator);
     probe.total = total.value();

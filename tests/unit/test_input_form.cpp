@@ -293,7 +293,7 @@ TEST(BrokenInput, Words) {
        R"(name = "tip"
 quantity = "force"
 )",
-       R"(34:12: error: unknown quantity "force"; allowed: "displacement", "rotation", "velocity", "reaction", "stress", "strain")"},
+       R"(34:12: error: unknown quantity "force"; allowed: "displacement", "rotation", "velocity", "reaction", "moment", "stress", "strain")"},
       {R"(every = "1 s")", R"(fields = ["displacment"])",
        R"(36:11: error: unknown entry of fields "displacment"; did you mean "displacement"? allowed: "displacement", "rotation", "orientation", "velocity", "reaction", "strain", "stress", "material", "energy")"},
       {R"(kind = "local")", R"(kind = "rayleigh")",
@@ -338,6 +338,12 @@ fix = ["z"]
 center = [0, 0, 0]
 )",
        R"(25:1: error: "center" has no meaning here; it goes with a boundary with twist)"},
+      {R"(name = "tip"
+)",
+       R"(name = "tip"
+center = [0, 0, 0]
+)",
+       R"(34:1: error: "center" has no meaning here; it goes with quantity "moment")"},
       {R"(force = ["1 N", 0, 0])", R"(pressure = "1 MPa"
 distribution = "nodes")",
        R"(29:1: error: "distribution" has no meaning here; it goes with a load with force)"},
@@ -349,7 +355,7 @@ duration = 1)",
       {R"(kind = "local")", R"(kind = "none")",
        R"(31:28: error: "factor" has no meaning here; it goes with kind "local")"},
   };
-  ASSERT_EQ(inputs.size(), 11u);
+  ASSERT_EQ(inputs.size(), 12u);
   expect_messages(inputs);
 }
 

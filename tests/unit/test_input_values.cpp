@@ -235,12 +235,19 @@ safety = 1.5)",
       {R"(name = "tip"
 point = [0, 0, 0])",
        R"(name = "tip")", R"(32:1: error: probe "tip" selects nothing; give one of face, box, point)"},
+      {R"(name = "tip"
+)",
+       R"(name = "tip"
+quantity = "moment"
+reduce = "mean"
+)",
+       R"(35:10: error: probe "tip" is a moment, which is a sum over its nodes; leave reduce out)"},
       {R"(every = "1 s")", "every = 0", "36:9: error: every is 0 s; it must be positive"},
       {R"(every = "1 s")", R"(checkpoint_every_wall = "-1 min")",
        "36:25: error: checkpoint_every_wall is -60 s; it must be positive"},
       {R"(title = "base")", R"(title = "")", "1:9: error: title is empty; give it a text or leave it out"},
   };
-  ASSERT_EQ(inputs.size(), 11u);
+  ASSERT_EQ(inputs.size(), 12u);
   expect_messages(inputs);
 }
 

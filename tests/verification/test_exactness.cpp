@@ -206,18 +206,25 @@ TEST_P(Exact, ReactionsBalanceTheLoads) {
   load.selection.face = Face::x_max;
   load.force = Vec3{3, -4, 5};
   definition.loads = {load};
+  definition.probes = {test::probe("root", Face::x_min, Quantity::moment, Reduce::sum)};
   test::Equilibrium solved(definition);
   EXPECT_LT(solved.model().cell_count, 80);
 
   const lattice::Field<double> reactions = solved.meter().reactions(solved.state());
-  Vec3 force{}, moment{};
+  // The root has all its nodes, so their mean is the centre of the face.
+  const Vec3 root{0, 2 * d, 2 * d};
+  Vec3 force{}, moment{}, moment_about_root{};
   lattice::for_each_owned(solved.model().layout(), [&](auto i, auto j, auto k, auto n) {
     Vec3 R{}, M{};
     for (int c = 0; c < reactions.components(); ++c)
       (c < 3 ? R : M)[static_cast<std::size_t>(c % 3)] = reactions.component(c)[n];
     force = force + R;
     moment = moment + cross(solved.model().lattice.grid.position({i, j, k}), R) + M;
+    moment_about_root = moment_about_root + cross(solved.model().lattice.grid.position({i, j, k}) - root, R) + M;
   });
+  ASSERT_EQ(solved.probe(0).size(), 3U);
+  EXPECT_GT(norm(moment_about_root), 0.05);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(solved.probe(0)[c], moment_about_root[c], 1e-13) << c;
   for (const auto& [node, f] : solved.model().loads[0].forces) {
     force = force + f;
     lattice::for_each_owned(solved.model().layout(), [&](auto i, auto j, auto k, auto n) {
