@@ -1,6 +1,6 @@
-// node scripts/screenshot.mjs REPORT.html OUT.png [--select field=displacement:x]... [--only SELECTOR]
-//                              [--width 1280] [--height 900] [--dark] [--full]
-// Sets controls of the page (by id; field=NAME:COMPONENT sets both lists) and saves a picture of the window, of the
+// node scripts/screenshot.mjs REPORT.html OUT.png [--select field=displacement:x]... [--press ArrowLeft]...
+//                              [--only SELECTOR] [--width 1280] [--height 900] [--dark] [--full]
+// Sets controls of the page (by id; field=NAME:COMPONENT sets both lists), presses keys on the view, and saves a picture of the window, of the
 // whole page (--full) or of the first element that matches a CSS selector (--only '#figures figure').
 import { parseArgs } from "node:util";
 import { resolve } from "node:path";
@@ -8,7 +8,8 @@ import { pathToFileURL } from "node:url";
 import { openBrowser } from "./browser.mjs";
 
 const { values: options, positionals } = parseArgs({ allowPositionals: true, options: {
-  select: { type: "string", multiple: true, default: [] }, only: { type: "string" }, width: { type: "string", default: "1280" },
+  select: { type: "string", multiple: true, default: [] }, press: { type: "string", multiple: true, default: [] },
+  only: { type: "string" }, width: { type: "string", default: "1280" },
   height: { type: "string", default: "900" }, dark: { type: "boolean", default: false }, full: { type: "boolean", default: false } } });
 if (positionals.length !== 2) throw new Error("usage: screenshot.mjs REPORT.html OUT.png [options]");
 
@@ -18,6 +19,7 @@ try {
   const page = browser.context.pages()[0];
   await page.goto(pathToFileURL(resolve(positionals[0])).href);
   for (const choice of options.select) await set(page, ...choice.split(/=(.*)/s));
+  for (const key of options.press) await page.locator("#view").press(key);
   await page.waitForTimeout(500);  // transitions of the plots
   const target = options.only ? page.locator(options.only).first() : page;
   await target.screenshot({ path: positionals[1], ...(options.only ? {} : { fullPage: options.full }) });
@@ -29,7 +31,10 @@ async function set(page, id, value) {
   const control = page.locator(`#${id}`);
   const kind = await control.evaluate((node) => (node.tagName === "SELECT" ? "select" : node.type));
   if (kind === "checkbox") await control.setChecked(value === "true");
-  else if (kind !== "select") await control.fill(value);
+  else if (kind !== "select") {
+    await control.fill(value);
+    await control.press("Enter");  // number boxes take effect then
+  }
   else {
     const [name, component] = value.split(":");
     await control.selectOption(name);

@@ -1,0 +1,242 @@
+#!/usr/bin/python3
+"""Pictures of the examples, from their own results: examples/*/picture.png, 1200 x 750.
+
+    scripts/gallery_pictures.py [EXAMPLE...] [--build build/release] [--out DIRECTORY]
+
+Bodies are the view of the report page in headless Chromium; curves are drawn with matplotlib from fields and histories, the
+theory beside them. --out writes NN.png into another directory instead.
+"""
+import argparse
+import io
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+import matplotlib
+
+matplotlib.use("agg")
+import matplotlib.pyplot as plt
+import numpy as np
+from PIL import Image
+
+from gallery import EXAMPLES, ROOT, Results
+
+WIDTH, HEIGHT = 1200, 750
+LIMIT = 195_000  # bytes
+# Windows in which the stage of the report's view has the shape of a picture, and of half a picture.
+WHOLE, HALF = ["--width", "1500", "--height", "704"], ["--width", "1000", "--height", "940"]
+THEORY = {"color": "black", "linestyle": (0, (5, 4)), "linewidth": 1.4}
+BLUE, RED, GREEN = "#1f5f99", "#b3403a", "#3d8f5f"
+
+plt.rcParams.update({"font.size": 15, "axes.spines.top": False, "axes.spines.right": False, "axes.grid": True,
+                     "grid.color": "#e3e7ec", "lines.linewidth": 2.2, "legend.frameon": False, "font.family": "DejaVu Sans"})
+
+
+class Maker:
+    def __init__(self, build, directory):
+        self.build, self.directory = build, directory
+        sys.path.insert(0, str(build / "python"))
+        self.koshi = __import__("koshi")
+
+    def simulation(self, example, *overrides):
+        return self.koshi.Simulation(EXAMPLES / example / "case.toml", overrides=overrides)
+
+    def run(self, example, *overrides):
+        """Output directory of a run; one for each example."""
+        out = self.directory / example
+        command = [self.build / "koshi", "run", EXAMPLES / example / "case.toml", "--out", out, "--quiet"]
+        subprocess.run(command + [part for o in overrides for part in ("--set", o)], check=True)
+        return out
+
+    def bodies(self, example, *views, keys=(), overrides=(), page=HALF):
+        """The report's views of a run, one for each list of controls, with the camera turned by arrow keys."""
+        out = self.run(example, *overrides)
+        subprocess.run([self.build / "koshi", "report", out], check=True, stdout=subprocess.DEVNULL)
+        return [self.view(out, controls, keys, page) for controls in views]
+
+    def body(self, example, controls, **options):
+        return fitted(*self.bodies(example, controls, page=WHOLE, **options))
+
+    @staticmethod
+    def view(out, controls, keys, page):
+        options = [part for c in controls for part in ("--select", c)] + [part for k in keys for part in ("--press", k)]
+        subprocess.run(["node", ROOT / "report/scripts/screenshot.mjs", out / "report.html", out / "body.png", "--only", ".stage",
+                        *page, *options], check=True)
+        return Image.open(out / "body.png").convert("RGB")
+
+
+def fitted(image, width=WIDTH, height=HEIGHT):
+    """Scaled to the size, on white."""
+    factor = min(width / image.width, height / image.height)
+    image = image.resize((round(image.width * factor), round(image.height * factor)), Image.Resampling.LANCZOS)
+    page = Image.new("RGB", (width, height), "white")
+    page.paste(image, ((width - image.width) // 2, (height - image.height) // 2))
+    return page
+
+
+def side_by_side(left, right):
+    page = Image.new("RGB", (WIDTH, HEIGHT), "white")
+    for x, image in ((0, left), (WIDTH // 2, right)):
+        page.paste(fitted(image, WIDTH // 2 - 8, HEIGHT), (x + 4, 0))
+    return page
+
+
+def figure(columns=1, width=WIDTH, **options):
+    return plt.subplots(1, columns, figsize=(width / 100, HEIGHT / 100), dpi=100, layout="constrained", **options)
+
+
+def drawn(fig):
+    buffer = io.BytesIO()
+    fig.savefig(buffer, dpi=100)
+    plt.close(fig)
+    return Image.open(buffer).convert("RGB")
+
+
+def uniaxial_paper(maker):
+    faster = ("boundary.top platen.velocity.z='-1 cm/s'", "analysis.duration='32 ms'", "analysis.time_step='auto'",
+              "output.every='32 ms'")
+    views = ([f"field=displacement:{c}", "lines=cells", "scale-number=8"] for c in "zx")
+    return side_by_side(*maker.bodies("01_uniaxial_paper", *views, overrides=faster))
+
+
+def cantilever_paper(maker):
+    """Fig. 7: the deflection along the beam, with exact springs and Euler-Bernoulli's curve beside the paper's springs."""
+    fig, ax = figure()
+    for example, label, colour in (("03_cantilever_exact", "exact springs (example 03)", GREEN),
+                                   ("02_cantilever_paper", "paper's springs, Cube-II", BLUE)):
+        simulation = maker.simulation(example)
+        simulation.run()
+        y = simulation.coordinates[1]
+        # Along the line x = 0.8 cm, z = 1.0 cm, as in the paper.
+        ax.plot(100 * y, 100 * simulation.displacement[0, 5, :, 4], "o-", color=colour, markersize=5, label=label)
+    length, force, modulus, inertia = 0.078, 9.8, 1112e6, 0.018**4 / 12
+    y = np.linspace(0, length, 100)
+    ax.plot(100 * y, 100 * force * y**2 * (3 * length - y) / (6 * modulus * inertia), label="Euler–Bernoulli", **THEORY)
+    ax.plot(7.8, 0.016439, "k*", markersize=16, label="three-dimensional elasticity")  # docs/theory/09_numbers.md
+    ax.set(xlabel="y along the beam [cm]", ylabel="deflection $u_x$ [cm]", title="Cantilever of the paper",
+           xlim=(0, 8), ylim=(0, None))
+    handles, labels = ax.get_legend_handles_labels()
+    ax.legend(handles[::-1], labels[::-1], loc="upper left")
+    return drawn(fig)
+
+
+def cantilever_exact(maker):
+    return maker.body("03_cantilever_exact", ["field=displacement:x", "lines=cells", "scale-number=80"])
+
+
+def two_phase_block(maker):
+    cut = ["cut=y", "cut-position=112", "outline=false"]
+    return side_by_side(*maker.bodies("04_two_phase_block", ["field=material", *cut], ["field=stress:zz", *cut]))
+
+
+def torsion_bar(maker):
+    views = ([f"field={field}", "lines=cells", "scale-number=40"] for field in ("stress:yz", "displacement:z"))
+    return side_by_side(*maker.bodies("05_torsion_bar", *views))
+
+
+def wave_in_bar(maker):
+    """The stress over place and time, and what the gauges see."""
+    simulation = maker.simulation("06_wave_in_bar")
+    samples = []
+    simulation.run(lambda s: samples.append((s.time, s.field("stress")[0].mean(axis=(0, 1)))) and False)
+    times, stress = np.array([t for t, _ in samples]), np.array([s for _, s in samples])
+    x = simulation.coordinates[0]
+    speed, length = np.sqrt(200e9 / 7850), 0.6
+    fig, (left, right) = figure(2)
+    left.grid(False)
+    edges = np.append(times, 2 * times[-1] - times[-2])
+    mesh = left.pcolormesh(1e3 * x, 1e6 * edges, 1e-6 * stress, cmap="RdBu_r", vmin=-1, vmax=1)
+    fig.colorbar(mesh, ax=left, location="top", label="stress $σ_{xx}$ in the bar [MPa]")
+    # The middle of the pulse leaves at 30 us and runs at c_0.
+    reflected = 30 + 1e6 * length / speed
+    left.plot([0, 600, 600 - 1e-3 * speed * (220 - reflected)], [30, reflected, 220], **THEORY)
+    left.text(330, 62, "$c_0=\\sqrt{E/ρ}$")
+    left.set(xlabel="x along the bar [mm]", ylabel="time [µs]", xlim=(0, 600), ylim=(0, 220))
+
+    results = Results(maker.run("06_wave_in_bar"))
+    t = np.array(results.time)
+
+    def pulse(s):
+        return np.where((s > 0) & (s < 60e-6), 0.5 * (1 - np.cos(2 * np.pi * s / 60e-6)), 0)
+
+    for gauge, place, colour in (("gauge 1", 0.15, BLUE), ("gauge 2", 0.45, RED)):
+        stress = 1e-6 * np.array(results.history(f"{gauge}.stress.xx"))
+        right.plot(1e6 * t, stress, color=colour, label=f"{gauge}, x = {1e3 * place:g} mm")
+        theory = -pulse(t - place / speed) + pulse(t - (2 * length - place) / speed)
+        right.plot(1e6 * t, theory, label="one-dimensional theory" if place > 0.3 else None, **THEORY)
+    right.set(xlabel="time [µs]", ylabel="stress $σ_{xx}$ [MPa]", xlim=(0, 220), ylim=(-1.15, 1.6))
+    right.legend(loc="upper left")
+    return drawn(fig)
+
+
+def porous_cube(maker):
+    plain = ["field=stress:zz", "outline=false", "lines=none", "scale-number=0", "range-min=-80", "range-max=80"]
+    return side_by_side(*maker.bodies("07_porous_cube", plain, [*plain, "cut=y"]))
+
+
+def gravity_column(maker):
+    """Beside the settled body, stresses over depth."""
+    body, = maker.bodies("08_gravity_column", ["field=displacement:z", "lines=cells", "scale-number=60"])
+    simulation = maker.simulation("08_gravity_column")
+    simulation.run()
+    stress, z = simulation.field("stress")[:, :, 4, 4], simulation.coordinates[2]
+    fig, right = figure(width=WIDTH // 2 - 8)
+    depth = 10 - 0.5 * (z[1:] + z[:-1])
+    right.plot(-1e-3 * stress[2], depth, "o", color=BLUE, label="vertical, $-σ_{zz}$")
+    right.plot(-1e-3 * stress[0], depth, "s", color=RED, label="lateral, $-σ_{xx}$")
+    vertical = np.array([0, 78.48, 78.48, 78.48 + 1.8 * 9.81 * 6])
+    right.plot(vertical, [0, 4, 4, 10], label="theory", **THEORY)
+    right.plot(vertical * [1 / 3, 1 / 3, 2 / 3, 2 / 3], [0, 4, 4, 10], **THEORY)
+    right.axhspan(0, 4, color="#f3ead2", zorder=0)
+    right.axhspan(4, 10, color="#e6e2dd", zorder=0)
+    right.text(150, 0.6, "sand")
+    right.text(8, 9.6, "clay")
+    right.set(xlabel="stress [kPa]", ylabel="depth [m]", xlim=(0, 200), ylim=(10, 0), title="Stress at rest")
+    right.legend(loc="center right", bbox_to_anchor=(1, 0.75))
+    return side_by_side(body, drawn(fig))
+
+
+def beam_vibration(maker):
+    results = Results(maker.run("09_beam_vibration"))
+    t, tip = np.array(results.time), 1e6 * np.array(results.history("tip.displacement.y"))
+    fig, ax = figure()
+    ax.axvspan(0, 9, color="#eef1f5", zorder=0)
+    ax.text(0.4, -88, "force rises", color="#5a6675")
+    ax.text(9.3, -88, "free", color="#5a6675")
+    ax.plot(1e3 * t, tip, color=BLUE, label="Koshi")
+    deflection, frequency = 100.75, 222.30  # expected.py
+    free = t[t >= 9e-3]
+    ax.plot([0, 9], [0, deflection], **THEORY)
+    ax.plot(1e3 * free, deflection * np.cos(2 * np.pi * frequency * (free - 9e-3)), label="Timoshenko's beam, first mode",
+            **THEORY)
+    ax.set(xlabel="time [ms]", ylabel="deflection of the tip [µm]", title="Cantilever, pushed and let go",
+           xlim=(0, 27), ylim=(-130, 150))
+    ax.legend(loc="upper right", ncols=2)
+    return drawn(fig)
+
+
+PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
+            "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
+            "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration}
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("examples", nargs="*", default=sorted(PICTURES), metavar="EXAMPLE")
+    parser.add_argument("--build", default=ROOT / "build/release", type=pathlib.Path)
+    parser.add_argument("--out", type=pathlib.Path)
+    arguments = parser.parse_args()
+    for example in arguments.examples:
+        with tempfile.TemporaryDirectory() as directory:
+            image = PICTURES[example](Maker(arguments.build.resolve(), pathlib.Path(directory)))
+        file = arguments.out / f"{example}.png" if arguments.out else EXAMPLES / example / "picture.png"
+        image.save(file, optimize=True)
+        for kept in (0xFE, 0xFC, 0xF8):  # fewer shades, until the file is small
+            if file.stat().st_size > LIMIT:
+                image.point(lambda v: v if v == 255 else v & kept).save(file, optimize=True)
+        print(f"{file}: {image.width} x {image.height}, {file.stat().st_size / 1000:.0f} kB")
+
+
+if __name__ == "__main__":
+    main()
