@@ -19,4 +19,7 @@ def on_page_markdown(markdown, page, **_):
     # Links to the documentation leave the folder of the examples; on the site it is one of the documentation's own.
     if not page.file.src_uri.startswith("examples/"):
         return markdown
+    case = pathlib.Path(page.file.abs_src_path).parent / "case.toml"
+    if case.exists():
+        markdown += f"\n## The case\n\n```toml\n{case.read_text()}```\n"
     return markdown.replace("](../../docs/", "](../../").replace("](../docs/", "](../")
