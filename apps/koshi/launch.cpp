@@ -25,6 +25,8 @@ void launch(int ranks, const std::vector<std::string>& arguments) {
   // Ranks without a core of their own must not spin while they wait for the others.
   if (static_cast<unsigned>(ranks) > std::thread::hardware_concurrency())
     setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  // The rank that fails says why; the launcher's own words about exit codes would bury it.
+  setenv("OMPI_MCA_orte_execute_quiet", "1", 0);
   // The launcher passes on what the ranks print; the live line still works if this process has a terminal.
   if (isatty(STDERR_FILENO)) setenv("KOSHI_PROGRESS", "live", 0);
   std::vector<std::string> command{"mpiexec", "-n", std::to_string(ranks), "/proc/self/exe"};

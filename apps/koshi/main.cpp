@@ -4,6 +4,7 @@
 #include <exception>
 #include <iostream>
 
+#include "base/suggest.h"
 #include "commands.h"
 #include "koshi/error.h"
 
@@ -25,6 +26,11 @@ int main(int argc, char** argv) {
   koshi::app::add_report_command(app);
   koshi::app::add_schema_command(app);
   try {
+    // CLI11 would only say that a command is missing.
+    std::vector<std::string> known;
+    for (const CLI::App* command : app.get_subcommands({})) known.push_back(command->get_name());
+    if (own.size() > 1 && !own[1].starts_with('-') && std::find(known.begin(), known.end(), own[1]) == known.end())
+      throw koshi::InputError("there is no command \"" + own[1] + "\"; " + koshi::suggestion(own[1], known));
     // CLI11 takes the arguments in reverse order, without the program's name.
     Arguments reversed(own.rbegin(), own.rend() - 1);
     app.parse(reversed);

@@ -23,6 +23,14 @@ std::filesystem::path default_directory(const std::string& file) {
   return std::filesystem::path(file).stem().string() + ".out";
 }
 
+// Ends a run on several ranks, all of which threw the same error. One of them reports it, and the others wait for that:
+// the launcher stops every rank as soon as one has left.
+void leave_together(const Communicator& world, const std::string& message, int exit_code) {
+  if (world.is_root()) std::cerr << message << std::endl;
+  world.barrier();
+  std::_Exit(exit_code);
+}
+
 void run(const Options& options, const Arguments& arguments) {
   // Read first: wrong input is reported once, and without starting ranks.
   const model::Definition definition = io::read_case(options.file, options.overrides);
@@ -33,12 +41,11 @@ void run(const Options& options, const Arguments& arguments) {
     driver::RunOptions run = options.run;
     if (run.directory.empty()) run.directory = default_directory(options.file);
     driver::run(definition, run, world);
-  } catch (const InputError&) {
-    // All ranks throw the same; one of them reports it.
-    if (!world.is_root()) std::_Exit(2);
+  } catch (const InputError& error) {
+    if (world.size() > 1) leave_together(world, error.what(), 2);
     throw;
-  } catch (const RunError&) {
-    if (!world.is_root()) std::_Exit(1);
+  } catch (const RunError& error) {
+    if (world.size() > 1) leave_together(world, std::string("error: ") + error.what(), 1);
     throw;
   }
 }

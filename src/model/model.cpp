@@ -36,6 +36,16 @@ std::vector<material::Springs> make_springs(const Definition& definition, const 
   return springs;
 }
 
+// Springs and bonds know no input file: what they find wrong is put down to a place here.
+template <class F>
+void at_place(const Place& place, F&& action) {
+  try {
+    action();
+  } catch (const InputError& error) {
+    throw InputError(place, error.message());
+  }
+}
+
 // Mass and rotational inertia of the nodes: each cell gives an eighth of its mass and volume to its corners; the
 // inertia is that of a sphere of the node's volume, J = 2/5 m R^2 (N24).
 lattice::Field<double> make_inertia(const Model& model) {
@@ -84,8 +94,12 @@ Model make_model(const Definition& definition, const Communicator& communicator)
                      "the body has no solid cell; give it a material, or make the void smaller");
 
   collectively(communicator, [&] {
-    make_bonds(model.lattice, definition.lattice.springs, definition.lattice.kinematics,
-               make_springs(definition, model.lattice, model.volume()));
+    std::vector<material::Springs> springs;
+    at_place(definition.places.find("lattice.calibration"),
+             [&] { springs = make_springs(definition, model.lattice, model.volume()); });
+    at_place(definition.places.find("body"), [&] {
+      make_bonds(model.lattice, definition.lattice.springs, definition.lattice.kinematics, std::move(springs));
+    });
   });
   model.inertia = make_inertia(model);
   lattice::for_each_owned(model.layout(),

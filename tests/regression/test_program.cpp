@@ -114,7 +114,7 @@ TEST_F(Program, RefusesWrongInputBeforeItMakesTheOutputDirectory) {
       {"run missing.toml --out new", "missing.toml: error: cannot be opened (No such file or directory)"},
       // The command line itself.
       {"", "A subcommand is required\n"},
-      {"fly", "A subcommand is required\n"},
+      {"chek case.toml", "error: there is no command \"chek\"; did you mean \"check\"?\n"},
       {"run", "case is required\n"},
       {"run case.toml --out new --fast", "The following argument was not expected: --fast\n"},
       {"run case.toml --out new --ranks 0", "--ranks: Value 0 not in range"},
@@ -135,6 +135,15 @@ TEST_F(Program, RefusesWrongInputBeforeItMakesTheOutputDirectory) {
   EXPECT_EQ(checked, 21);
   EXPECT_EQ(test::read_file(directory_ / "foreign/thesis.txt"), "precious");
   EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "foreign"), fs::directory_iterator()), 1);
+}
+
+// One rank speaks for all, and the launcher adds nothing.
+TEST_F(Program, RanksReportAnErrorOnce) {
+  const Ended ended = koshi("run case.toml --out new --ranks 2 --set 'body.material=\"void\"'");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.error,
+            "case.toml:4:1: error: the body has no solid cell; give it a material, or make the void smaller\n");
+  EXPECT_EQ(ended.output, "");
 }
 
 // The spacing offered instead of an absurd one must itself fit.
