@@ -15,8 +15,9 @@ trap 'rm -rf "$work"' EXIT
 
 # The pages: those of docs/, those the program tells, the C++ reference, and what stands at the root of the tree.
 cp -R docs "$work/docs"
+rm -r "$work/docs/doxygen"
 /usr/bin/python3 scripts/docs_reference.py "$program" "$work/docs/reference"
-doxygen - < <(cat scripts/Doxyfile; echo "OUTPUT_DIRECTORY = $work/docs/reference")
+doxygen - < <(cat docs/doxygen/Doxyfile; echo "OUTPUT_DIRECTORY = $work/docs/reference")
 for page in CONTRIBUTING:contributing CHANGELOG:changes; do
   sed -e 's#](docs/development/#](#g' -e 's#](docs/#](../#g' -e 's#](CHANGELOG.md)#](changes.md)#g' \
     "${page%:*}.md" >"$work/docs/development/${page#*:}.md"

@@ -60,6 +60,7 @@ std::vector<BondGroup> bulk_bonds(lattice::CellType cell, double d, const Spring
 /// 560, 1488, 2000). `shared`: a bond on the surface counts the share its cells own of it. Volume `box_volume`.
 std::vector<BondGroup> box_bonds(lattice::CellType cell, Sharing sharing, const Int3& cells, double d,
                                  const Springs& springs = {});
+/// d^3 for each cell [m^3].
 double box_volume(const Int3& cells, double d);
 
 /// Stiffness tensor of a set of bonds in a volume [m^3] (N21), plus kappa delta_ij delta_kl of volumetric springs.

@@ -19,12 +19,12 @@ namespace koshi::model {
 
 /// [lattice]
 struct LatticeDefinition {
-  lattice::CellType cell = lattice::CellType::cube_iii;
-  double spacing = 0;  ///< d [m], required
-  material::Sharing springs = material::Sharing::shared;
+  lattice::CellType cell = lattice::CellType::cube_iii;   ///< unit cell
+  double spacing = 0;                                     ///< d [m], required
+  material::Sharing springs = material::Sharing::shared;  ///< shared between cells, or full
   /// Unset: bending-exact for shared Cube-III, isotropic for shared Cube-I and -II, paper for plain springs.
   std::optional<material::Calibration> calibration;
-  material::Kinematics kinematics = material::Kinematics::rotational;
+  material::Kinematics kinematics = material::Kinematics::rotational;  ///< of the bond law
   /// Calibration "paper": entries of C set equal to the elastic tensor, e.g. {"C1122", "C1212"} or {"C1111-C1122"};
   /// empty: Cube-I C1111-C1122, Cube-II C1122 and C1212, Cube-III C1122 and C1111.
   std::vector<std::string> equations;
@@ -48,33 +48,38 @@ struct BodyDefinition {
 
 /// [material.NAME]
 struct MaterialDefinition {
-  std::string name;
-  material::Elastic elastic;
+  std::string name;           ///< not "void"
+  material::Elastic elastic;  ///< E, nu, density
   bool operator==(const MaterialDefinition&) const = default;
 };
 
 /// [[region]]: gives the cells whose centre lies inside the shape a material; later regions win.
 struct RegionDefinition {
+  /// stl: a surface from a file.
   enum class Shape { box, sphere, cylinder, half_space, stl };
-  Shape shape = Shape::box;
+  Shape shape = Shape::box;          ///< decides which members count
   std::string material;              ///< a material's name or "void"
-  Vec3 min{}, max{};                 ///< box [m]
+  Vec3 min{};                        ///< box: lower corner [m]
+  Vec3 max{};                        ///< box: upper corner [m]
   Vec3 center{};                     ///< sphere [m]
   double radius = 0;                 ///< sphere, cylinder [m]
-  Vec3 start{}, end{};               ///< axis of the cylinder [m]
-  Vec3 point{}, normal{};            ///< half-space: the side of `point` to which `normal` does not point
+  Vec3 start{};                      ///< cylinder: one end of the axis [m]
+  Vec3 end{};                        ///< cylinder: other end of the axis [m]
+  Vec3 point{};                      ///< half-space: on its plane [m]
+  Vec3 normal{};                     ///< half-space: the direction that points out of it
   std::string file;                  ///< stl: a closed surface
   double scale = 1;                  ///< stl: length of the file's unit [m]
   std::vector<std::uint8_t> inside;  ///< stl: 1 for each cell inside, x fastest; filled from the file
   bool operator==(const RegionDefinition&) const = default;
 };
 
+/// Faces of the box of cells.
 enum class Face { x_min, x_max, y_min, y_max, z_min, z_max };
 
 /// Nodes a boundary, load or probe applies to: exactly one of the three. A point selects the nearest node, which must
 /// lie within half a spacing in every direction.
 struct Selection {
-  std::optional<Face> face;
+  std::optional<Face> face;                  ///< of the box of cells
   std::optional<std::pair<Vec3, Vec3>> box;  ///< {min, max} [m], nodes inside or on the border
   std::optional<Vec3> point;                 ///< [m]
   bool operator==(const Selection&) const = default;
@@ -85,9 +90,9 @@ using History = std::vector<std::array<double, 2>>;
 
 /// [[boundary]]: prescribed motion. Components 0..5 = x, y, z, rx, ry, rz.
 struct BoundaryDefinition {
-  std::string name;
-  Selection selection;
-  std::array<bool, 6> fix{};
+  std::string name;                                     ///< for messages and --set
+  Selection selection;                                  ///< of nodes
+  std::array<bool, 6> fix{};                            ///< held at zero
   std::array<std::optional<double>, 6> displacement{};  ///< [m], [rad]
   std::array<std::optional<double>, 6> velocity{};      ///< [m/s], [rad/s]
   /// The selection turns as a rigid body about an axis through `center`: angle [rad] about x, y or z; prescribes the
@@ -101,30 +106,34 @@ struct BoundaryDefinition {
 
 /// [[load]]: exactly one of force, traction, pressure, acceleration.
 struct LoadDefinition {
+  /// By the area a node stands for, or evenly.
   enum class Distribution { area, nodes };
-  std::string name;
+  std::string name;                                ///< for messages and --set
   Selection selection;                             ///< none for acceleration
   std::optional<Vec3> force;                       ///< total [N]
   Distribution distribution = Distribution::area;  ///< of the total force
   std::optional<Vec3> traction;                    ///< [Pa], on a face or the part of it in a box
   std::optional<double> pressure;                  ///< [Pa], against the face's outward normal
   std::optional<Vec3> acceleration;                ///< body force per mass [m/s^2]
-  History history;
+  History history;                                 ///< factor on the load
   bool operator==(const LoadDefinition&) const = default;
 };
 
+/// Damping of the motion.
 struct DampingDefinition {
+  /// (N27) or (N1).
   enum class Kind { none, local, viscous };
-  Kind kind = Kind::local;
-  double factor = 0.8;  ///< local: alpha of (N27), 0 <= alpha < 1
-  double rate = 0;      ///< viscous: c/m of (N1) [1/s]
+  Kind kind = Kind::local;  ///< none: the other members do not count
+  double factor = 0.8;      ///< local: alpha of (N27), 0 <= alpha < 1
+  double rate = 0;          ///< viscous: c/m of (N1) [1/s]
   bool operator==(const DampingDefinition&) const = default;
 };
 
 /// [analysis]
 struct AnalysisDefinition {
+  /// Equilibrium at once, equilibrium by damped steps, or motion.
   enum class Type { statics, quasi_static, dynamic };
-  Type type = Type::statics;
+  Type type = Type::statics;         ///< what is computed
   double tolerance = 1e-8;           ///< statics: relative residual; quasi-static: unbalanced-force ratio
   std::optional<double> duration;    ///< [s], required for dynamic; quasi-static: the most simulated time
   std::optional<double> time_step;   ///< [s]; unset: "auto"
@@ -137,13 +146,15 @@ struct AnalysisDefinition {
 
 /// [[probe]]
 struct ProbeDefinition {
+  /// Of nodes, of supports, or of the cells around a node.
   enum class Quantity { displacement, rotation, velocity, reaction, moment, stress, strain };
+  /// How the values of several nodes become one; max: of each component, by size.
   enum class Reduce { mean, area_mean, sum, max };
-  std::string name;
-  Selection selection;
-  Quantity quantity = Quantity::displacement;
-  std::optional<Reduce> reduce;  ///< unset: sum for reactions and moments, else mean
-  std::optional<Vec3> center;    ///< of a moment of the reactions [m]; unset: mean position of the selected nodes
+  std::string name;                            ///< in the results
+  Selection selection;                         ///< of nodes
+  Quantity quantity = Quantity::displacement;  ///< what is reported
+  std::optional<Reduce> reduce;                ///< unset: sum for reactions and moments, else mean
+  std::optional<Vec3> center;  ///< of a moment of the reactions [m]; unset: mean position of the selected nodes
 
   /// The reduction in force: the one set, else the default of the quantity.
   Reduce reduction() const {
@@ -168,6 +179,7 @@ struct OutputDefinition {
 /// Where each key of the input stood, by path ("boundary[0].face"); empty for a definition made in code.
 class Places {
  public:
+  /// Notes where a key stood.
   void set(const std::string& path, const Place& place) { places_[path] = place; }
   /// Place of the key or of the nearest enclosing table that is known.
   Place find(std::string path) const;
@@ -176,19 +188,20 @@ class Places {
   std::map<std::string, Place> places_;
 };
 
+/// A whole case.
 struct Definition {
-  std::string title;
-  LatticeDefinition lattice;
-  BodyDefinition body;
-  std::vector<MaterialDefinition> materials;
-  std::vector<RegionDefinition> regions;
-  std::vector<BoundaryDefinition> boundaries;
-  std::vector<LoadDefinition> loads;
-  AnalysisDefinition analysis;
-  std::vector<ProbeDefinition> probes;
-  OutputDefinition output;
+  std::string title;                           ///< for people
+  LatticeDefinition lattice;                   ///< [lattice]
+  BodyDefinition body;                         ///< [body]
+  std::vector<MaterialDefinition> materials;   ///< [material.NAME]; index 1 in a cell is the first
+  std::vector<RegionDefinition> regions;       ///< [[region]], later ones win
+  std::vector<BoundaryDefinition> boundaries;  ///< [[boundary]]
+  std::vector<LoadDefinition> loads;           ///< [[load]]
+  AnalysisDefinition analysis;                 ///< [analysis]
+  std::vector<ProbeDefinition> probes;         ///< [[probe]]
+  OutputDefinition output;                     ///< [output]
 
-  Places places;
+  Places places;                ///< for messages
   std::string directory = ".";  ///< relative file names (image, stl, start_from) are looked up here
 
   /// The calibration in force: the one set, else the default for the cell and sharing.

@@ -16,8 +16,8 @@ class ExplicitSolver {
   ExplicitSolver(const model::Model& model, model::State& state, double dt);
   ~ExplicitSolver();
 
-  void step();
-  double dt() const;
+  void step();        ///< one step of dt
+  double dt() const;  ///< [s]
 
  private:
   struct Implementation;

@@ -11,18 +11,18 @@ namespace koshi {
 
 /// A place in an input file; line and column count from 1, 0 = unknown.
 struct Place {
-  std::string file;
-  int line = 0;
-  int column = 0;
+  std::string file;  ///< or option, or path of the key
+  int line = 0;      ///< from 1
+  int column = 0;    ///< from 1
 };
 
 /// Wrong input. `what()` reads "case.toml:12:9: error: what is wrong; what would be right".
 class InputError : public std::runtime_error {
  public:
-  explicit InputError(const std::string& message) : InputError(Place{}, message) {}
-  InputError(const Place& place, const std::string& message);
+  explicit InputError(const std::string& message) : InputError(Place{}, message) {}  ///< place unknown
+  InputError(const Place& place, const std::string& message);                        ///< `message` without the place
 
-  const Place& place() const { return place_; }
+  const Place& place() const { return place_; }  ///< where the mistake stands
   /// The text without the place.
   const std::string& message() const { return message_; }
 

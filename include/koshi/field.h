@@ -17,31 +17,35 @@ template <class T>
 class Field {
  public:
   Field() = default;
+  /// Zero on all nodes of the layout, ghosts and padding included.
   Field(const Layout& layout, int components)
       : components_(components),
         stride_(padded(layout.size())),
         data_(allocate(static_cast<std::size_t>(stride_) * static_cast<std::size_t>(components))) {
     zero();
   }
+  /// Deep.
   Field(const Field& other) : components_(other.components_), stride_(other.stride_), data_(allocate(other.count())) {
     if (other.count() != 0) std::memcpy(data_.get(), other.data_.get(), count() * sizeof(T));
   }
-  Field(Field&&) noexcept = default;
+  Field(Field&&) noexcept = default;  ///< leaves the other empty
+  /// Deep.
   Field& operator=(const Field& other) {
     if (this != &other) *this = Field(other);
     return *this;
   }
-  Field& operator=(Field&&) noexcept = default;
+  Field& operator=(Field&&) noexcept = default;  ///< leaves the other empty
 
-  int components() const { return components_; }
-  T* component(int c) { return data_.get() + c * stride_; }
-  const T* component(int c) const { return data_.get() + c * stride_; }
+  int components() const { return components_; }                         ///< values per node
+  T* component(int c) { return data_.get() + c * stride_; }              ///< c in [0, components)
+  const T* component(int c) const { return data_.get() + c * stride_; }  ///< c in [0, components)
   /// Elements from one component to the next.
   std::int64_t stride() const { return stride_; }
   /// All elements, padding included.
   std::size_t count() const { return static_cast<std::size_t>(stride_) * static_cast<std::size_t>(components_); }
-  T* data() { return data_.get(); }
-  const T* data() const { return data_.get(); }
+  T* data() { return data_.get(); }              ///< all elements
+  const T* data() const { return data_.get(); }  ///< all elements
+  /// Sets every element to zero.
   void zero() {
     if (count() != 0) std::memset(static_cast<void*>(data_.get()), 0, count() * sizeof(T));
   }

@@ -11,20 +11,23 @@ namespace koshi::lattice {
 /// A box of cells; node (i, j, k) lies at origin + d (i, j, k). In a periodic direction the last layer of nodes is the
 /// first one.
 struct Grid {
-  Int3 cells{};
-  double d = 0;  ///< spacing [m]
-  Vec3 origin{};
-  std::array<bool, 3> periodic{};
+  Int3 cells{};                    ///< along each axis
+  double d = 0;                    ///< spacing [m]
+  Vec3 origin{};                   ///< lower corner [m]
+  std::array<bool, 3> periodic{};  ///< opposite faces are joined
 
+  /// Nodes along each axis.
   Int3 nodes() const {
     Int3 n;
     for (int a = 0; a < 3; ++a) n[a] = cells[a] + (periodic[a] ? 0 : 1);
     return n;
   }
+  /// Of the whole box, empty or not.
   std::int64_t node_count() const {
     const Int3 n = nodes();
     return n[0] * n[1] * n[2];
   }
+  /// Of a global node [m].
   Vec3 position(const Int3& node) const {
     return {origin[0] + d * static_cast<double>(node[0]), origin[1] + d * static_cast<double>(node[1]),
             origin[2] + d * static_cast<double>(node[2])};
@@ -39,30 +42,34 @@ struct Grid {
 /// may be read and written up to the end of the row. A cell has the index of its corner with the smallest coordinates.
 class Layout {
  public:
-  static constexpr std::int64_t lead = 8;
+  static constexpr std::int64_t lead = 8;  ///< elements before a row's first owned node
 
   Layout() = default;
+  /// Global indices of the first owned node, and owned nodes along each axis.
   Layout(const Int3& begin, const Int3& owned)
       : begin_(begin), owned_(owned), pitch_(lead + (owned[0] + lead) / lead * lead), plane_(pitch_ * (owned[1] + 2)) {}
 
-  const Int3& begin() const { return begin_; }  ///< global indices of the first owned node
-  const Int3& owned() const { return owned_; }  ///< owned nodes per axis
-  std::int64_t pitch() const { return pitch_; }
-  std::int64_t plane() const { return plane_; }
+  const Int3& begin() const { return begin_; }   ///< global indices of the first owned node
+  const Int3& owned() const { return owned_; }   ///< owned nodes per axis
+  std::int64_t pitch() const { return pitch_; }  ///< from a node to the next along y
+  std::int64_t plane() const { return plane_; }  ///< from a node to the next along z
   /// Number of array elements of one component, ghosts and padding included.
   std::int64_t size() const { return plane_ * (owned_[2] + 2) + 4 * lead; }
-  std::int64_t owned_count() const { return owned_[0] * owned_[1] * owned_[2]; }
+  std::int64_t owned_count() const { return owned_[0] * owned_[1] * owned_[2]; }  ///< owned nodes in all
 
+  /// Place in memory of a local node, each index from -1 to owned.
   std::int64_t index(std::int64_t i, std::int64_t j, std::int64_t k) const {
     return lead + i + pitch_ * (j + 1) + plane_ * (k + 1);
   }
-  std::int64_t index(const Int3& node) const { return index(node[0], node[1], node[2]); }
+  std::int64_t index(const Int3& node) const { return index(node[0], node[1], node[2]); }  ///< the same
   /// Distance in memory between a node and its neighbour in direction s.
   std::int64_t offset(const std::array<int, 3>& s) const { return s[0] + pitch_ * s[1] + plane_ * s[2]; }
 
   /// Local indices of a global node; owned if every one lies in [0, owned).
   Int3 local(const Int3& global) const { return {global[0] - begin_[0], global[1] - begin_[1], global[2] - begin_[2]}; }
+  /// Global indices of a local node.
   Int3 global(const Int3& node) const { return {node[0] + begin_[0], node[1] + begin_[1], node[2] + begin_[2]}; }
+  /// Of a local node.
   bool owns(const Int3& node) const {
     for (int a = 0; a < 3; ++a)
       if (node[a] < 0 || node[a] >= owned_[a]) return false;
@@ -84,6 +91,7 @@ void for_each(const Layout& layout, const Int3& lo, const Int3& hi, F&& f) {
     }
 }
 
+/// The same for all owned nodes.
 template <class F>
 void for_each_owned(const Layout& layout, F&& f) {
   for_each(layout, {0, 0, 0}, layout.owned(), f);

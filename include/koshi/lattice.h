@@ -17,13 +17,15 @@ namespace koshi::lattice {
 /// Unit cells of Nishimura et al., Fig. 3: edges; edges and face diagonals; edges, face and body diagonals.
 enum class CellType { cube_i, cube_ii, cube_iii };
 
+/// Bonds of one length.
 enum Family { edge = 0, face = 1, body = 2 };
-inline constexpr int family_count = 3;
-inline constexpr int slot_count = 13;
+inline constexpr int family_count = 3;  ///< of a unit cell with all bonds
+inline constexpr int slot_count = 13;   ///< forward directions
 
+/// Direction of a bond from the node that owns it.
 struct Slot {
   std::array<int, 3> s;  ///< direction in cells: each component -1, 0 or 1
-  Family family;
+  Family family;         ///< by length
 };
 
 /// The 13 forward directions: 3 edges, 6 face diagonals, 4 body diagonals; their negatives are the backward ones.
@@ -52,6 +54,7 @@ inline constexpr std::array<int, family_count> squared_length{1, 2, 3};
 /// Families a unit cell has: 1, 2 or 3.
 constexpr int families_of(CellType type) { return static_cast<int>(type) + 1; }
 
+/// The word in input and output.
 constexpr std::string_view name(CellType type) {
   constexpr std::array<std::string_view, 3> names{"cube-I", "cube-II", "cube-III"};
   return names[static_cast<std::size_t>(type)];

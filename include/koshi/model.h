@@ -14,51 +14,55 @@ namespace koshi::model {
 
 /// One prescribed component of one owned node, `value` times the boundary's factor at the time.
 struct PrescribedMotion {
-  std::int64_t node = 0;
+  std::int64_t node = 0;      ///< index in the layout
   std::int8_t component = 0;  ///< 0 ... 5
-  bool is_velocity = false;
-  double value = 0;  ///< [m], [rad] or per second
-  int boundary = 0;  ///< index into Definition::boundaries
+  bool is_velocity = false;   ///< else a displacement
+  double value = 0;           ///< [m], [rad] or per second
+  int boundary = 0;           ///< index into Definition::boundaries
 };
 
+/// A force on one owned node.
 struct NodeForce {
-  std::int64_t node = 0;
-  Vec3 force{};  ///< [N], times the load's factor at the time
+  std::int64_t node = 0;  ///< index in the layout
+  Vec3 force{};           ///< [N], times the load's factor at the time
 };
 
 /// A load on this rank's owned nodes; body forces act on every node by its mass.
 struct Load {
-  std::vector<NodeForce> forces;
-  Vec3 acceleration{};  ///< [m/s^2]
-  History history;
+  std::vector<NodeForce> forces;  ///< by node
+  Vec3 acceleration{};            ///< of the whole body [m/s^2]
+  History history;                ///< factor over time
 };
 
 /// Owned nodes of a probe with their weights; the weights of all ranks add up to `total`.
 struct Probe {
-  ProbeDefinition definition;
-  std::vector<std::pair<std::int64_t, double>> nodes;
-  double total = 0;
-  std::vector<Vec3> arms;  ///< of a moment: positions of the nodes from its centre [m]
+  ProbeDefinition definition;                          ///< name, quantity, reduction
+  std::vector<std::pair<std::int64_t, double>> nodes;  ///< index in the layout, weight
+  double total = 0;                                    ///< of the weights
+  std::vector<Vec3> arms;                              ///< of a moment: positions of the nodes from its centre [m]
 };
 
+/// The whole problem on one rank.
 struct Model {
-  Definition definition;
-  Communicator communicator;
+  Definition definition;                     ///< as checked
+  Communicator communicator;                 ///< of the run's ranks
   std::vector<material::Elastic> materials;  ///< by material index; entry 0 (empty) is zero
-  SpringLattice lattice;
+  SpringLattice lattice;                     ///< cells, bonds, springs
   /// Component 0: mass [kg]; 1 (rotational kinematics): rotational inertia [kg m^2]. Zero where there is no cell, in
   /// ghosts and padding.
   lattice::Field<double> inertia;
   std::vector<PrescribedMotion> motions;  ///< sorted by node, then component
-  std::vector<Load> loads;
-  std::vector<Probe> probes;
-  std::int64_t node_count = 0;    ///< nodes with at least one cell, all ranks
-  std::int64_t cell_count = 0;    ///< solid cells, all ranks
-  std::int64_t motion_count = 0;  ///< prescribed components, all ranks
+  std::vector<Load> loads;                ///< by load of the definition
+  std::vector<Probe> probes;              ///< by probe of the definition
+  std::int64_t node_count = 0;            ///< nodes with at least one cell, all ranks
+  std::int64_t cell_count = 0;            ///< solid cells, all ranks
+  std::int64_t motion_count = 0;          ///< prescribed components, all ranks
 
-  int components() const { return lattice.components(); }
-  const lattice::Layout& layout() const { return lattice.layout; }
-  double volume() const { return static_cast<double>(cell_count) * lattice.grid.d * lattice.grid.d * lattice.grid.d; }
+  int components() const { return lattice.components(); }           ///< unknowns per node, 6 or 3
+  const lattice::Layout& layout() const { return lattice.layout; }  ///< of this rank's nodes
+  double volume() const {
+    return static_cast<double>(cell_count) * lattice.grid.d * lattice.grid.d * lattice.grid.d;
+  }  ///< of the body [m^3]
 };
 
 /// Validates the definition against the grid and builds the model (collective). Throws InputError with the place of the
@@ -76,13 +80,14 @@ double predicted_memory(const Definition& definition, int ranks);
 
 /// What changes during a run. Component order: ux, uy, uz [m], rx, ry, rz [rad] (three components with least-squares).
 struct State {
-  lattice::Field<double> displacement;
-  lattice::Field<double> velocity;  ///< at t - dt/2 in explicit runs
+  lattice::Field<double> displacement;  ///< [m], [rad]
+  lattice::Field<double> velocity;      ///< at t - dt/2 in explicit runs
   /// Unit quaternions w, x, y, z of the nodes; no components unless a run asks for orientations.
   lattice::Field<double> orientation;
-  double time = 0;  ///< [s]
-  std::int64_t step = 0;
+  double time = 0;        ///< [s]
+  std::int64_t step = 0;  ///< explicit steps so far
 
+  /// At rest, undeformed, at time 0.
   explicit State(const Model& model)
       : displacement(model.layout(), model.components()), velocity(model.layout(), model.components()) {}
 };

@@ -10,6 +10,7 @@
 
 namespace koshi::driver {
 
+/// What a run is told besides its case.
 struct RunOptions {
   std::filesystem::path directory;         ///< of the output
   bool quiet = false;                      ///< no progress, no summary on the terminal

@@ -28,23 +28,24 @@ struct BondClass {
 ///   that touch an owned node.
 /// - bond: component = slot, class of a node's forward bond (0 = absent); known on owned and ghost nodes.
 struct SpringLattice {
-  static constexpr int max_materials = 255;
-  static constexpr int max_classes = 255;
+  static constexpr int max_materials = 255;  ///< a cell names its material by a byte
+  static constexpr int max_classes = 255;    ///< and a node its bonds
 
-  lattice::Grid grid;
-  lattice::Layout layout;
-  std::shared_ptr<const lattice::Partition> partition;
-  std::shared_ptr<const lattice::Halo> halo;
-  material::Sharing sharing = material::Sharing::shared;
-  material::Kinematics kinematics = material::Kinematics::rotational;
+  lattice::Grid grid;                                                  ///< of the whole body
+  lattice::Layout layout;                                              ///< of this rank's nodes
+  std::shared_ptr<const lattice::Partition> partition;                 ///< boxes of all ranks
+  std::shared_ptr<const lattice::Halo> halo;                           ///< exchange of ghost values
+  material::Sharing sharing = material::Sharing::shared;               ///< how bonds get their stiffness
+  material::Kinematics kinematics = material::Kinematics::rotational;  ///< where rotations come from
 
-  lattice::Field<std::uint8_t> cell;
-  lattice::Field<std::uint8_t> bond;
+  lattice::Field<std::uint8_t> cell;       ///< material index of cells
+  lattice::Field<std::uint8_t> bond;       ///< class of forward bonds, by slot
   std::vector<BondClass> classes;          ///< by class; class 0 is the absent bond
   std::vector<material::Springs> springs;  ///< by material index; entry 0 (empty) is zero
 
   /// Unknowns per node: three displacements, and three rotations with rotational kinematics.
   int components() const { return kinematics == material::Kinematics::rotational ? 6 : 3; }
+  /// Whether some material has a volumetric spring.
   bool has_volumetric() const;
 };
 

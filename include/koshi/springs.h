@@ -20,16 +20,17 @@ enum class Calibration { bending_exact, isotropic, paper };
 
 /// Isotropic elastic solid; E in Pa (> 0), -1 < nu < 1/2, density in kg/m^3 (> 0).
 struct Elastic {
-  double youngs_modulus = 0;
-  double poissons_ratio = 0;
-  double density = 0;
+  double youngs_modulus = 0;  ///< E [Pa]
+  double poissons_ratio = 0;  ///< nu
+  double density = 0;         ///< rho [kg/m^3]
 
+  /// Lamé's [Pa].
   double lambda() const { return youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)); }
-  double mu() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }
+  double mu() const { return youngs_modulus / (2 * (1 + poissons_ratio)); }  ///< Lamé's [Pa]
 
-  /// Speeds of compression and shear waves [m/s].
+  /// Speed of compression waves [m/s].
   double p_wave_speed() const { return std::sqrt((lambda() + 2 * mu()) / density); }
-  double s_wave_speed() const { return std::sqrt(mu() / density); }
+  double s_wave_speed() const { return std::sqrt(mu() / density); }  ///< [m/s]
 
   bool operator==(const Elastic&) const = default;
 };

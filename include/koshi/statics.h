@@ -9,24 +9,26 @@
 
 namespace koshi::statics {
 
+/// How a solution is sought.
 struct StaticOptions {
-  double tolerance = 1e-8;  ///< residual over the right-hand side
-  int max_iterations = 500;
-  std::vector<std::string> petsc_options;  ///< as on a command line: "-ksp_monitor", ...
-  std::function<void(int iteration, double relative_residual)> progress;
+  double tolerance = 1e-8;                                                ///< residual over the right-hand side
+  int max_iterations = 500;                                               ///< RunError beyond
+  std::vector<std::string> petsc_options;                                 ///< as on a command line: "-ksp_monitor", ...
+  std::function<void(int iteration, double relative_residual)> progress;  ///< called after each iteration; empty: not
 };
 
+/// How it went.
 struct SolveReport {
-  int iterations = 0;
-  double relative_residual = 0;
-  std::int64_t unknowns = 0;
-  int levels = 0;
-  bool converged = false;
-  std::string reason;
-  std::vector<double> residual_history;
-  double setup_seconds = 0;
-  double solve_seconds = 0;
-  int projected_motions = 0;
+  int iterations = 0;                    ///< of conjugate gradients
+  double relative_residual = 0;          ///< at the end, over the right-hand side
+  std::int64_t unknowns = 0;             ///< free components of all nodes
+  int levels = 0;                        ///< of the multigrid hierarchy
+  bool converged = false;                ///< to the tolerance
+  std::string reason;                    ///< PETSc's word for why it ended
+  std::vector<double> residual_history;  ///< relative residual after 0, 1, 2 ... iterations
+  double setup_seconds = 0;              ///< wall time before the iterations [s]
+  double solve_seconds = 0;              ///< wall time of the iterations [s]
+  int projected_motions = 0;             ///< rigid motions that nothing holds, taken out
 };
 
 /// Fills the state's displacements with the equilibrium under the loads at the end of their histories (collective).

@@ -107,7 +107,7 @@ const std::vector<Key<ProbeDefinition>>& keys_of(Tag<ProbeDefinition>) {
                         "How the values of several nodes become one; unset: sum for reactions and moments, else mean."),
                  key<D>("center", &D::center,
                         "Point about which the reactions' moment is taken; unset: the mean of the selected nodes.",
-                        {.dimension = Dimension::length})
+                        {.dimension = Dimension::length, .example = R"(["5 mm", "5 mm", "0 mm"])"})
                      .only_for("quantity \"moment\"", {"quantity"},
                                [](const D& probe) { return probe.quantity == D::Quantity::moment; }),
              });
