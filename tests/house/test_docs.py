@@ -23,7 +23,7 @@ PROGRAM = Path(sys.argv[1]).resolve()
 MODULE = Path(sys.argv[2]).resolve() if len(sys.argv) > 2 else None
 BLOCK = re.compile(r"^```(\w+)(?: title=\"([^\"]+)\")?\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 NUMBER = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?")
-RUN = ("koshi", "/usr/bin/python3", "head", "tail", "ls", "cat")
+RUN = ("koshi ", "/usr/bin/python3 ", "head ", "tail ", "ls ", "cat ", "for ")
 ENVIRONMENT = os.environ | {"PATH": f"{PROGRAM.parent}:{os.environ['PATH']}", "PYTHONPATH": str(MODULE or "")}
 
 
