@@ -82,6 +82,23 @@ def read_page(page, folder, counts):
             counts["numbers"] += compare(page.name, lines, following.group(3), output)
 
 
+def keys(value, path=""):
+    """Paths of the values of a summary, the user's names replaced."""
+    if not isinstance(value, dict) or not value:
+        return {path}
+    names = {"springs": "<material>", "probes": "<name>", "probes.<name>": "<quantity>"}
+    return set().union(*(keys(v, f"{path}.{names.get(path, k)}".lstrip(".")) for k, v in value.items()))
+
+
+def compare_keys(folder):
+    """The page of the output directory lists the keys that summaries have, and no others."""
+    page = (ROOT / "docs/formats/output.md").read_text(encoding="utf-8")
+    listed = set(re.findall(r"`([\w.<>]+)`", page[page.index("## summary.json") :])) - {"null", "face", "body"}
+    there = set().union(*(keys(json.loads((folder / f"out/{run}/summary.json").read_text())) for run in ("paper", "exact")))
+    there = {key for key in there if not re.search(r"\.(face|body)\.k[nt]$", key)}
+    assert listed == there, listed ^ there
+
+
 def test_pages():
     counts = {"files": 0, "commands": 0, "numbers": 0}
     tutorial = [ROOT / "docs/tutorial" / f"{name}.md" for name in ("cantilever", "exact-springs", "block", "python")]
@@ -90,6 +107,8 @@ def test_pages():
         with tempfile.TemporaryDirectory() as folder:
             for page in pages:
                 read_page(page, Path(folder), counts)
+            if pages is tutorial:
+                compare_keys(Path(folder))
     print(counts)
     assert counts["files"] >= 7 and counts["commands"] >= 15 and counts["numbers"] >= 60, counts
 
