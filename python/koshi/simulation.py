@@ -115,7 +115,8 @@ class Simulation:
         """
         poll = None if callback is None else lambda: bool(callback(self))
         outcome = self._core.run(poll, None if out is None else os.fspath(out), progress, list(petsc_options))
-        return Result(**outcome | {"measurement": Measurement(**outcome["measurement"])})
+        measurement = Measurement(**outcome.pop("measurement"))
+        return Result(measurement=measurement, **outcome)
 
     def measure(self) -> Measurement:
         """Balance and probes of the present state."""
