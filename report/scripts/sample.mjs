@@ -112,7 +112,8 @@ export function makeSample() {
   const body = mesh();
   const nodes = body.points.length / 3;
   const tip = axis(LENGTH, LOAD).w;
-  const panel = (component) => ({ field: "displacement", component, sample: STEPS - 1, caption: `Displacement ${component}` });
+  const numbers = (title, rows) => ({ title, columns: [{ name: "quantity" }, { name: "value" }], rows });
+  const panel = (component) => ({ field: "displacement", component, sample: STEPS - 1, caption: `u_${component}` });
   return {
     format: "koshi-report/1",
     version: "0.1.0",
@@ -130,15 +131,19 @@ export function makeSample() {
     case: 'title = "Cantilever (sample data)"\n\n[lattice]\ncell = "cube-III"\nspacing = 0.002 # m\n\n[material.rock]\nyoungs_modulus = 1.112e9 # Pa\npoissons_ratio = 0.18\n',
     materials: { columns: [{ name: "material" }, { name: "E", unit: "Pa" }, { name: "ν", unit: "1" }, { name: "density", unit: "kg/m^3" }, { name: "cells" }],
       rows: [["rock", E, NU, 2000, 1580], ["soft rock", 0.4 * E, 0.3, 1800, 1579]] },
-    springs: { columns: [{ name: "material" }, { name: "bonds" }, { name: "kn", unit: "N/m" }, { name: "kt", unit: "N/m" }],
+    conditions: { columns: ["name", "where", "what", "value", "over time"].map((name) => ({ name })),
+      rows: [["root", "y-min", "x, y, z", "fixed", ""], ["tip_load", "y-max", "force", { value: [LOAD, 0, 0], unit: "N" }, "constant"]] },
+    springs: { columns: [{ name: "material" }, { name: "bonds" }, { name: "k_n", unit: "N/m" }, { name: "k_t", unit: "N/m" }],
       rows: [["rock", "edges", 474300, 335700], ["rock", "face diagonals", 321800, 99120], ["rock", "body diagonals", 338200, 212400]] },
     achieved: { columns: [{ name: "material" }, { name: "E asked", unit: "Pa" }, { name: "E achieved", unit: "Pa" }, { name: "deviation" },
         { name: "ν asked" }, { name: "ν achieved" }, { name: "deviation" }, { name: "Zener ratio" }],
       rows: [["rock", E, E * (1 + 2e-13), 2e-13, NU, NU, 0, 1], ["soft rock", 0.4 * E, 0.4 * E, 0, 0.3, 0.3 * (1 + 1e-13), 1e-13, 1]] },
     probes: [{ title: "Displacement", columns: [{ name: "probe" }, { name: "where" }, ...["x", "y", "z"].map((name) => ({ name, unit: "m" }))],
       rows: [["tip", "y-max, area-mean", tip, 0, 0], ["middle", "point", ...displacement([SIDE / 2, LENGTH / 2], LOAD)]] }],
-    timing: { columns: [{ name: "quantity" }, { name: "value" }], rows: [["iterations", { value: 8, unit: "1" }], ["reason", "tolerance reached"],
-      ["elastic energy", { value: (LOAD * tip) / 2, unit: "J" }], ["seconds", { value: 0.83, unit: "s" }], ["peak memory", { value: 34.5e6, unit: "B" }]] },
+    timing: [
+      numbers("Analysis", [["iterations", { value: 8, unit: "1" }], ["ended by", "relative residual below tolerance"]]),
+      numbers("Energy", [["elastic", { value: (LOAD * tip) / 2, unit: "J" }]]),
+      numbers("Performance", [["wall time", { value: 0.83, unit: "s" }], ["peak memory", { value: 34.5e6, unit: "B" }]])],
     history: history(),
     convergence: { residuals: [1, 0.21, 0.013, 9.1e-4, 5.2e-5, 3.3e-6, 2.4e-7, 1.5e-8, 9e-10], tolerance: 1e-8 },
     mesh: {

@@ -1,7 +1,8 @@
 // node scripts/screenshot.mjs REPORT.html OUT.png [--select field=displacement:x]... [--press ArrowLeft]...
-//                              [--only SELECTOR] [--width 1280] [--height 900] [--dark] [--full]
-// Sets controls of the page (by id; field=NAME:COMPONENT sets both lists), presses keys on the view, and saves a picture of the window, of the
-// whole page (--full) or of the first element that matches a CSS selector (--only '#figures figure').
+//      [--only SELECTOR] [--width 1280] [--height 900] [--scale 2] [--margin 0] [--dark] [--full]
+// Sets controls of the page (by id; field=NAME:COMPONENT sets both lists), presses keys on the view, and saves a picture
+// of the window, of the whole page (--full) or of the first element that matches a CSS selector
+// (--only '#figures figure'); --scale gives the picture's pixels for each of the page's, --margin the element's border.
 import { parseArgs } from "node:util";
 import { resolve } from "node:path";
 import { pathToFileURL } from "node:url";
@@ -9,12 +10,13 @@ import { openBrowser } from "./browser.mjs";
 
 const { values: options, positionals } = parseArgs({ allowPositionals: true, options: {
   select: { type: "string", multiple: true, default: [] }, press: { type: "string", multiple: true, default: [] },
-  only: { type: "string" }, width: { type: "string", default: "1280" },
-  height: { type: "string", default: "900" }, dark: { type: "boolean", default: false }, full: { type: "boolean", default: false } } });
+  only: { type: "string" }, width: { type: "string", default: "1280" }, height: { type: "string", default: "900" },
+  scale: { type: "string", default: "2" }, margin: { type: "string" }, dark: { type: "boolean", default: false },
+  full: { type: "boolean", default: false } } });
 if (positionals.length !== 2) throw new Error("usage: screenshot.mjs REPORT.html OUT.png [options]");
 
 const browser = await openBrowser({ viewport: { width: Number(options.width), height: Number(options.height) },
-  deviceScaleFactor: 2, colorScheme: options.dark ? "dark" : "light" });
+  deviceScaleFactor: Number(options.scale), colorScheme: options.dark ? "dark" : "light" });
 try {
   const page = browser.context.pages()[0];
   await page.goto(pathToFileURL(resolve(positionals[0])).href);
@@ -22,6 +24,7 @@ try {
   for (const key of options.press) await page.locator("#view").press(key);
   await page.waitForTimeout(500);  // transitions of the plots
   const target = options.only ? page.locator(options.only).first() : page;
+  if (options.only && options.margin) await target.evaluate((node, margin) => (node.style.padding = `${margin}px`), options.margin);
   await target.screenshot({ path: positionals[1], ...(options.only ? {} : { fullPage: options.full }) });
 } finally {
   await browser.close();

@@ -1,3 +1,6 @@
+// Building the page: elements, sections, lists.
+import { subscripts } from "./format.js";
+
 /**
  * A new element.
  * @param {string} tag
@@ -19,7 +22,7 @@ export function element(tag, properties = {}, ...children) {
 
 /** A text in which "E_x" has a real subscript, as nodes. */
 export function subscripted(text) {
-  return text.split(/_(\w+)/).map((part, i) => (i % 2 ? element("sub", { text: part }) : part));
+  return subscripts(text).map((part, i) => (i % 2 ? element("sub", { text: part }) : part));
 }
 
 /** A section of the page with its heading, or null when there is nothing to put in it. */

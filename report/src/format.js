@@ -37,14 +37,24 @@ export function magnitudeOf(values) {
   return largest;
 }
 
-/** A number with at most `digits` significant digits, no trailing zeros; scientific below 1e-4 and from 1e7 on. */
+/**
+ * A text split at the subscripts of symbols: odd parts are subscripts. "u_x" is a symbol, "tip_load" a name.
+ */
+export function subscripts(text) {
+  return text.split(/(?<=(?<![\p{L}\d_.])\p{L})_(\p{L}{1,3}|\d)(?![\p{L}\d_])/u);
+}
+
+/**
+ * A number with at most `digits` significant digits, no trailing zeros; whole from ten thousand on; scientific, with
+ * fewer digits, below 1e-4 and from 1e7 on.
+ */
 export function number(value, digits = 6) {
   if (typeof value !== "number") return String(value ?? "");
   if (!Number.isFinite(value)) return Number.isNaN(value) ? "–" : value > 0 ? "∞" : "-∞";
   if (Number.isInteger(value) && Math.abs(value) < 1e15) return grouped(value);
   const size = Math.abs(value);
-  if (size < 1e-4 || size >= 1e7) return value.toExponential(digits - 1).replace(/\.?0+e/, "e").replace("e+", "e");
-  const rounded = Number(value.toPrecision(digits));
+  if (size < 1e-4 || size >= 1e7) return value.toExponential(Math.min(digits, 4) - 1).replace(/\.?0+e/, "e").replace("e+", "e");
+  const rounded = size < 1e4 ? Number(value.toPrecision(digits)) : Math.round(value);
   return Number.isInteger(rounded) ? grouped(rounded) : String(rounded);
 }
 
@@ -59,7 +69,7 @@ const SUPERSCRIPTS = { "-": "⁻", 0: "⁰", 1: "¹", 2: "²", 3: "³", 4: "⁴"
 /** A unit with real superscripts and a dot between factors; "" for the dimensionless "1". */
 export function unitText(unit) {
   if (!unit || unit === "1") return "";
-  return unit.replace(/\^?(-?\d+)/g, (_, power) => [...power].map((c) => SUPERSCRIPTS[c]).join("")).replaceAll(" ", "·");
+  return unit.replace(/(?<=[a-z])\^?(-?\d+)/gi, (_, power) => [...power].map((c) => SUPERSCRIPTS[c]).join("")).replaceAll(" ", "·");
 }
 
 /** "label [unit]", or the label alone. */

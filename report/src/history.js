@@ -15,6 +15,13 @@ export function history(block) {
   return { node, start: () => [...cards, own].forEach((card) => card.start()) };
 }
 
+// What names like "tip.displacement.x" and "tip.displacement.y" have in common, up to the last point.
+function commonStart(names) {
+  let length = 0;
+  while (length < names[0].length && names.every((name) => name[length] === names[0][length])) ++length;
+  return names[0].slice(0, names[0].lastIndexOf(".", length - 1) + 1);
+}
+
 // A plot of columns given by name; the y axis carries the first column's unit.
 function chosen({ title, x, y, log }, byName) {
   const column = (name) => {
@@ -22,9 +29,10 @@ function chosen({ title, x, y, log }, byName) {
     return byName.get(name);
   };
   const [across, ...up] = [x, ...y].map(column);
-  const label = up.length === 1 ? up[0].name : title;
+  const common = up.length === 1 ? "" : commonStart(y);
+  const label = up.length === 1 ? up[0].name : common.split(".").at(-2) ?? title.toLowerCase();
   return { title, x: { label: across.name, unit: across.unit }, y: { label, unit: up[0].unit, log },
-    series: up.map(({ name, data }) => ({ name, x: across.data, y: data })) };
+    series: up.map(({ name, data }) => ({ name: name.slice(common.length), x: across.data, y: data })) };
 }
 
 function ownChoice(columns, byName) {

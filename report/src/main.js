@@ -5,7 +5,7 @@ import { figure } from "./figures.js";
 import { convergence, history } from "./history.js";
 import { files, header, model } from "./overview.js";
 import { plot } from "./plot.js";
-import { table } from "./table.js";
+import { table, tables } from "./table.js";
 import { viewer } from "./viewer.js";
 
 function build(data) {
@@ -16,17 +16,17 @@ function build(data) {
   const cards = [...figures, ...curves];
   const past = history(data.history);
   const solve = convergence(data.convergence);
-  const tables = (data.tables ?? []).map(table);
+  const own = (data.tables ?? []).map(table);
 
   const sections = [
     body?.node,
-    section("tables", "Tables", ...tables),
+    section("tables", "Tables", ...own),
     cards.length ? section("figures", "Figures", element("div", { class: "cards" }, ...cards.map(({ node }) => node))) : null,
     section("probes", "Probes", ...(data.probes ?? []).map(table)),
     past.node,
     solve.node,
-    hasRows(data.materials, data.springs, data.achieved) ? model(data) : null,
-    section("timing", "Run", table(data.timing)),
+    hasRows(data.materials, data.conditions, data.springs, data.achieved) ? model(data) : null,
+    section("timing", "Run", tables(data.timing)),
     files(data),
   ].filter(Boolean);
   const links = sections.map((node) => [node.id, node.querySelector("h2").textContent]);

@@ -1,7 +1,7 @@
 // What was computed: headline, facts, materials, springs, and the files the run leaves.
 import { element, section } from "./dom.js";
 import { quantity } from "./format.js";
-import { table } from "./table.js";
+import { tables } from "./table.js";
 import { themeButton } from "./theme.js";
 
 /** The head of the page; `links` are [id, text] of the sections present. */
@@ -17,11 +17,10 @@ export function header({ title, subtitle, facts = [], version }, links) {
     element("nav", { "aria-label": "Sections" }, ...links.map(([id, text]) => element("a", { href: `#${id}`, text }))));
 }
 
-export function model({ materials, springs, achieved }) {
-  const titled = (block, title) => block && table({ title, ...block });
-  return section("model", "Materials and springs",
-    element("div", { class: "tables" },
-      ...[titled(materials, "Materials"), titled(springs, "Springs"), titled(achieved, "Elastic constants: asked and achieved")].filter(Boolean)));
+/** What the springs were made from and the body was put to. */
+export function model({ materials, conditions, springs, achieved }) {
+  const titled = { Materials: materials, "Supports and loads": conditions, Springs: springs, "Elastic constants: asked and achieved": achieved };
+  return section("model", "Model", tables(Object.entries(titled).filter(([, block]) => block).map(([title, block]) => ({ title, ...block }))));
 }
 
 /** Input and summary as they are on disk, folded away. */

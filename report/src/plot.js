@@ -1,8 +1,8 @@
 // Curves with hover, zoom and a legend, drawn by Plotly.
 import Plotly from "plotly.js-basic-dist-min";
 import { decode } from "./data.js";
-import { element } from "./dom.js";
-import { labelled, magnitudeOf, prefixed } from "./format.js";
+import { element, subscripted } from "./dom.js";
+import { labelled, magnitudeOf, prefixed, subscripts } from "./format.js";
 import { colourOf, onTheme } from "./theme.js";
 
 const STYLES = {
@@ -23,7 +23,7 @@ const PRINT_WIDTH = 330;  // two beside each other on A4, in CSS pixels
 export function plot({ title, x, y, series, note }) {
   const decoded = series.map((one) => ({ ...one, x: decode(one.x), y: decode(one.y) }));
   const place = element("div", { class: "plot", role: "img", "aria-label": `${title}: ${series.map(({ name }) => name).join(", ")}` });
-  const node = element("figure", { class: "card" }, element("h3", { text: title }), place, note ? element("p", { class: "note", text: note }) : null);
+  const node = element("figure", { class: "card" }, element("h3", {}, ...subscripted(title)), place, note ? element("p", { class: "note", text: note }) : null);
 
   // One prefix per axis, fit for the largest value on it.
   const unitX = prefixed(Math.max(...decoded.map((one) => magnitudeOf(one.x))), x.unit);
@@ -43,7 +43,7 @@ export function plot({ title, x, y, series, note }) {
 
 // Plotly's own markup of a text: "u_x" gets a real subscript.
 function markup(text) {
-  return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replace(/_(\w+)/g, "<sub>$1</sub>");
+  return subscripts(text.replaceAll("&", "&amp;").replaceAll("<", "&lt;")).map((part, i) => (i % 2 ? `<sub>${part}</sub>` : part)).join("");
 }
 
 function layout(x, y, legend) {

@@ -50,7 +50,7 @@ export class Scene {
 
     this.surface = layer(this.renderer);
     // Mostly ambient light: colours must stay those of the colour bar, shading only tells the faces apart.
-    this.surface.actor.getProperty().set({ ambient: 0.6, diffuse: 0.4, specular: 0 });
+    this.surface.actor.getProperty().set({ ambient: 0.72, diffuse: 0.28, specular: 0 });
     this.surface.actor.getProperty().setInterpolationToFlat();
     this.surface.mapper.setInterpolateScalarsBeforeMapping(true);
     // The surface is drawn a little farther away, so that lines upon it are not swallowed.

@@ -1,31 +1,56 @@
 // Tables: a fitting prefix for each unit, numbers to six digits, the full value as a tooltip.
 import { element, subscripted } from "./dom.js";
-import { labelled, magnitudeOf, number, prefixed, quantity } from "./format.js";
+import { labelled, magnitudeOf, number, prefixed, quantity, unitText } from "./format.js";
+
+// Values this much smaller than others of their unit are rounding errors of zero; the tooltip has them in full.
+const NOISE = 1e-9;
 
 /**
- * @param {object} table {title?, columns: [{name, unit?}], rows: [[…]], note?}; cells are numbers, texts, {value, unit} or null
+ * @param {object} table {title?, columns: [{name, unit?, decimals?}], rows: [[…]], note?}; cells are numbers, texts, {value, unit}
+ *                       or null
  * @returns {HTMLElement|null} null when there is no row
  */
 export function table(block) {
   if (!block?.rows?.length) return null;
   const numbers = block.columns.map((_, i) => block.rows.map((row) => row[i]).filter((value) => typeof value === "number"));
-  const columns = block.columns.map(({ name, unit }, i) => {
+  const columns = block.columns.map(({ name, unit, decimals }, i) => {
     // Columns of the same unit share a prefix, so that they can be compared.
-    const alike = numbers.filter((_, other) => block.columns[other].unit === unit).flat();
-    return { name, numeric: numbers[i].length > 0, ...prefixed(magnitudeOf(alike), unit) };
+    const magnitude = magnitudeOf(numbers.filter((_, other) => block.columns[other].unit === unit).flat());
+    return { name, decimals, numeric: numbers[i].length > 0, noise: unit ? NOISE * magnitude : 0, ...prefixed(magnitude, unit) };
   });
   const head = columns.map(({ name, unit, numeric }) =>
     element("th", { scope: "col", class: numeric ? "number" : null }, ...subscripted(labelled(name, unit))));
   const body = block.rows.map((row) => element("tr", {}, ...row.map((value, i) => cell(value, columns[i]))));
   return element("div", { class: columns.length > 8 ? "table broad" : "table" },
-    block.title ? element("h3", { text: block.title }) : null,
+    block.title ? element("h3", {}, ...subscripted(block.title)) : null,
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": block.title ?? "Table" },
       element("table", {}, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...body))),
-    block.note ? element("p", { class: "note", text: block.note }) : null);
+    block.note ? element("p", { class: "note" }, ...subscripted(block.note)) : null);
 }
 
-function cell(value, { factor, numeric }) {
-  if (value?.unit) return element("td", { title: String(value.value), dataset: { value: value.value }, text: quantity(value.value, value.unit) });
-  if (typeof value !== "number") return element("td", { class: numeric ? "number" : null, text: value ?? "–" });
-  return element("td", { class: "number", title: String(value), dataset: { value }, text: number(value / factor) });
+/** Several tables beside each other; null when there is no row in any. */
+export function tables(blocks) {
+  const shown = (blocks ?? []).map(table).filter(Boolean);
+  return shown.length ? element("div", { class: "tables" }, ...shown) : null;
+}
+
+function cell(value, column) {
+  const { factor, numeric } = column;
+  if (value?.unit) {
+    const text = Array.isArray(value.value) ? vector(value.value, value.unit) : quantity(value.value, value.unit);
+    return element("td", { title: String(value.value), dataset: { value: value.value }, text });
+  }
+  if (typeof value !== "number") return element("td", { class: numeric ? "number" : null }, ...subscripted(value ?? "–"));
+  return element("td", { class: "number", title: String(value), dataset: { value }, text: shown(value, column) });
+}
+
+// "(9.8, 0, 0) N"
+function vector(values, unit) {
+  const { factor, unit: text } = prefixed(magnitudeOf(values), unit);
+  return `(${values.map((value) => number(value / factor)).join(", ")})\u00a0${unitText(text)}`;
+}
+
+function shown(value, { factor, decimals, noise }) {
+  if (decimals !== undefined) return (value / factor).toFixed(decimals).replace(/^-(?=[0.]*$)/, "");
+  return value !== 0 && Math.abs(value) < noise ? "≈ 0" : number(value / factor);
 }

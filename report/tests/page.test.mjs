@@ -164,8 +164,13 @@ test("tables show the values of the data", async () => {
     }
   }
   assert.equal(checked, 6 + 12);
-  assert.deepEqual(await page.locator("#timing td").allTextContents(), ["iterations", "8", "reason", "tolerance reached",
-    "elastic energy", "780.856\u00a0µJ", "seconds", "830\u00a0ms", "peak memory", "34.5\u00a0MB"]);
+  assert.deepEqual(await page.locator("#timing h3").allTextContents(), ["Analysis", "Energy", "Performance"]);
+  assert.deepEqual(await page.locator("#timing td").allTextContents(), ["iterations", "8", "ended by", "relative residual below tolerance",
+    "elastic", "780.856\u00a0µJ", "wall time", "830\u00a0ms", "peak memory", "34.5\u00a0MB"]);
+  // Names keep their underscores, symbols have subscripts.
+  assert.deepEqual(await page.locator("#model .table").nth(1).locator("tr").last().locator("td").allTextContents(),
+    ["tip_load", "y-max", "force", "(9.8, 0, 0)\u00a0N", "constant"]);
+  assert.equal(await page.locator("#model .table").nth(2).locator("th sub").allTextContents().then((parts) => parts.join()), "n,t");
   assert.equal(await page.locator(".facts dd").first().textContent(), "18 × 78 × 18\u00a0mm");
   for (const id of ["model", "convergence", "figures", "files"]) assert.equal(await page.locator(`#${id}`).count(), 1, id);
   assert.equal(await page.locator("#files pre").first().textContent(), data.case);
@@ -190,6 +195,8 @@ test("figures show a picture for each panel", async () => {
   assert.equal(sizes.length, 3);
   for (const size of sizes) assert.ok(size > 5000 && size < 5e6, `${size}`);
   assert.notEqual(sizes[0], sizes[1]);
+  assert.deepEqual(await page.locator("#figures .caption").evaluateAll((all) => all.map((p) => p.innerHTML)), ["x", "y", "z"].map((c) => `u<sub>${c}</sub>`));
+  assert.match(await page.locator("#figures figure").first().locator(".note").textContent(), /^Displacements drawn [125]0*\.?\d* times as large/);
 });
 
 test("dark theme and phone width leave nothing behind the edge", async () => {

@@ -6,7 +6,7 @@ import { fill } from "../scripts/fill.mjs";
 import { mapFor } from "../src/colours.js";
 import { decode } from "../src/data.js";
 import { principal, scalars } from "../src/field.js";
-import { number, prefixed, quantity, unitText } from "../src/format.js";
+import { number, prefixed, quantity, subscripts, unitText } from "../src/format.js";
 import { edges, visible } from "../src/mesh.js";
 import { CELLS, makeSample, SPACING } from "../scripts/sample.mjs";
 
@@ -34,10 +34,18 @@ test("numbers and units read as an engineer writes them", () => {
   assert.equal(quantity(1.34e6, "N/m"), "1.34\u00a0MN/m");
   assert.equal(unitText("1"), "");
   assert.equal(unitText("N m"), "N·m");
-  assert.equal(number(1.23456789e-7), "1.23457e-7");
+  assert.equal(unitText("1/s"), "1/s");
+  assert.equal(number(1.23456789e-7), "1.235e-7");
   assert.equal(number(44256), "44\u2009256");
+  assert.equal(number(85796.6), "85\u2009797");
+  assert.equal(number(9876.54321), "9876.54");
   assert.equal(number(NaN), "–");
   assert.deepEqual(prefixed(0, "m"), { factor: 1, unit: "m" });
+});
+
+test("symbols have subscripts, names do not", () => {
+  assert.deepEqual(subscripts("Fig. 7: u_x and ν_xy, E/E_0"), ["Fig. 7: u", "x", " and ν", "xy", ", E/E", "0", ""]);
+  for (const name of ["tip_load", "near_end.displacement.x", "a.b_c", "u_xyzw", "_x", "u_x_2"]) assert.deepEqual(subscripts(name), [name]);
 });
 
 test("principal values of a rotated tensor", () => {

@@ -1,4 +1,4 @@
-// A real run's report in a real browser: what the page shows is what the files say. KOSHI_PROGRAM names the program.
+// Real runs' reports in a real browser: what the page shows is what the files say. KOSHI_PROGRAM names the program.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
@@ -73,7 +73,8 @@ report = true
 before(async () => {
   if (!program) return;
   writeFileSync(join(folder, "case.toml"), CASE);
-  execFileSync(program, ["run", join(folder, "case.toml"), "--out", join(folder, "out"), "--quiet"], { stdio: "inherit" });
+  // On two ranks, so that the fields lie in pieces.
+  execFileSync(program, ["run", join(folder, "case.toml"), "--out", join(folder, "out"), "--quiet", "--ranks", "2"], { stdio: "inherit" });
   summary = JSON.parse(readFileSync(join(folder, "out/summary.json"), "utf8"));
   const rows = readFileSync(join(folder, "out/history.csv"), "utf8").trim().split("\n").map((row) => row.split(","));
   history = { names: rows[0], rows: rows.slice(1).map((row) => row.map(Number)) };
@@ -130,5 +131,38 @@ test("the colour range is that of the field", options, async () => {
   assert.deepEqual(await page.locator("#key .swatch").allTextContents(), ["soft", "hard"]);
   await page.selectOption("#field", "energy");
   assert.match(await page.locator("#key .bar-title").textContent(), /energy \[k?J\/m³\]/);
+  assert.deepEqual(errors, []);
+});
+
+test("the slider goes through the samples of the collection", options, async () => {
+  const times = [...readFileSync(join(folder, "out/fields.pvd"), "utf8").matchAll(/timestep="([^"]*)"/g)].map((match) => Number(match[1]));
+  assert.equal(times.length, 11);
+  await page.selectOption("#field", "displacement");
+  const pictures = new Set();
+  for (const [sample, time] of times.entries()) {
+    await page.fill("#sample", String(sample));
+    const [, value, unit] = (await page.locator("output[for=sample]").textContent()).match(/^t = ([\d.]+)\u00a0(.*)$/);
+    const seconds = value * { s: 1, ms: 1e-3, "µs": 1e-6 }[unit];
+    assert.ok(Math.abs(seconds - time) <= 5e-4 * time, `${value} ${unit} for ${time} s`);
+    pictures.add((await page.locator("#view canvas").screenshot()).toString("base64"));
+  }
+  assert.equal(pictures.size, times.length);
+  assert.deepEqual(errors, []);
+});
+
+test("a static solve shows its residuals down to the tolerance", options, async () => {
+  const out = join(folder, "static");
+  execFileSync(program, ["run", new URL("../../examples/03_cantilever_exact/case.toml", import.meta.url).pathname, "--out", out, "--quiet",
+    "--set", "output.report=true"], { stdio: "inherit" });
+  const { analysis } = JSON.parse(readFileSync(join(out, "summary.json"), "utf8"));
+  await page.goto(pathToFileURL(join(out, "report.html")).href);
+  const [residual, tolerance] = await page.locator("#convergence .plot").evaluate((node) => node.data.map(({ x, y }) => ({ x: [...x], y: [...y] })));
+  assert.deepEqual(residual.y, analysis.residual_history);
+  assert.deepEqual(residual.x, analysis.residual_history.map((_, i) => i));
+  assert.equal(residual.y.length, analysis.iterations + 1);
+  assert.ok(residual.y.at(-1) < tolerance.y[0] && residual.y.at(-2) > tolerance.y[0], `${residual.y.slice(-2)} about ${tolerance.y[0]}`);
+  assert.equal(await page.locator("#convergence .plot").evaluate((node) => node.layout.yaxis.type), "log");
+  // One row is no history.
+  assert.equal(await page.locator("#history").count(), 0);
   assert.deepEqual(errors, []);
 });

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -9,7 +10,7 @@ namespace koshi::driver {
 
 /// One value of the study: as published, of the same lattice at rest (an independent program's), and as found.
 struct PaperRow {
-  std::string name;
+  std::string quantity, lattice;  ///< e.g. "k_n" and "Cube-I"
   double paper, limit, value, tolerance;
 
   bool holds() const;
@@ -21,19 +22,37 @@ struct PaperCurve {
   std::vector<double> deflection;
 };
 
+/// An analysis of the study and where its results are.
+struct PaperRun {
+  std::string lattice;
+  std::filesystem::path directory;
+};
+
 struct PaperStudy {
   std::vector<PaperRow> springs;     ///< MN/m
   std::vector<PaperRow> uniaxial;    ///< ratios
   std::vector<PaperRow> cantilever;  ///< cm
-  std::vector<PaperCurve> curves;
+  std::vector<PaperCurve> curves;    ///< the theory's last
+  std::vector<PaperRun> uniaxial_runs;
+  std::vector<PaperRun> cantilever_runs;
 };
+
+/// A table of the study, how its numbers are shown, and what must be said of them.
+struct PaperSection {
+  std::string title;
+  const std::vector<PaperRow>* rows;
+  int decimals;  ///< as printed in the paper; Koshi's have one more
+  std::string note;
+};
+std::vector<PaperSection> paper_sections(const PaperStudy& study);
 
 /// The tables as Markdown.
 std::string paper_markdown(const PaperStudy& study);
 
-/// Writes paper.md, paper.json, fig7.csv and report.html into the directory; the page shows the body of the run in
-/// `cantilever`.
-void write_paper(const PaperStudy& study, const std::filesystem::path& directory,
-                 const std::filesystem::path& cantilever);
+/// The page's data (docs/formats/report-data.md): the tables, Figs. 6 and 7, and the deformed beams to look at.
+nlohmann::ordered_json paper_page(const PaperStudy& study);
+
+/// Writes paper.md, paper.json, fig7.csv and report.html into the directory.
+void write_paper(const PaperStudy& study, const std::filesystem::path& directory);
 
 }  // namespace koshi::driver

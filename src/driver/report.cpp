@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "driver/report_conditions.h"
 #include "driver/report_history.h"
 #include "driver/report_mesh.h"
 #include "driver/report_tables.h"
@@ -84,12 +85,13 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
             {"facts", facts(definition, summary)},
             {"case", io::read_file(input)},
             {"summary", summary},
-            {"materials", materials_table(definition)}};
+            {"materials", materials_table(definition)},
+            {"conditions", conditions_table(definition)}};
   const SpringTables springs = spring_tables(definition, summary);
   data["springs"] = springs.springs;
   data["achieved"] = springs.achieved;
   data["probes"] = probe_tables(definition, summary);
-  data["timing"] = numbers_table(summary);
+  data["timing"] = run_tables(summary);
 
   if (const fs::path history = directory / "history.csv"; fs::exists(history))
     data["history"] = history_block(io::read_history(history), definition);

@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "driver/calibrate.h"
 #include "driver/calibration_words.h"
+#include "driver/report_conditions.h"
 #include "mechanics/measure.h"
 #include "model/choices.h"
 
@@ -69,40 +71,68 @@ void append_achieved(json& rows, const std::string& material, const Calibrated& 
                   deviation({nu_axis[0][1], nu_axis[1][2], nu_axis[2][0]}, nu), found.constants->zener_ratio});
 }
 
-std::string selection_text(const model::ProbeDefinition& probe) {
-  const model::Selection& selection = probe.selection;
-  if (selection.point) return fmt::format("point ({:.6g}) m", fmt::join(*selection.point, ", "));
-  const std::string nodes = selection.face ? model::choice_name(*selection.face) : "box";
-  return probe.reduce ? fmt::format("{}, {}", nodes, model::choice_name(*probe.reduce)) : nodes;
+std::string probe_place(const model::ProbeDefinition& probe) {
+  const std::string nodes = place_text(probe.selection);
+  return probe.reduce && !probe.selection.point ? fmt::format("{}, {}", nodes, model::choice_name(*probe.reduce))
+                                                : nodes;
 }
 
 // SI unit of a number of the summary, which goes by its key.
 std::string unit_of_key(const std::string& key) {
+  if (key.ends_with("per_second")) return "1/s";
   if (key.ends_with("seconds") || key == "time" || key == "time_step") return "s";
   if (key.ends_with("memory")) return "B";
   return "1";
 }
 
-// Rows for the numbers, words and yes-or-no of one part of the summary; `suffix` completes the keys' names.
-void append_part(json& rows, const json& part, const std::string& suffix, const std::string& unit) {
-  if (!part.is_object()) return;
-  for (const auto& [key, value] : part.items()) {
-    std::string label = key == "seconds" ? "wall time" : key + suffix;
-    std::ranges::replace(label, '_', ' ');
-    if (value.is_number())
-      rows.push_back({label, json{{"value", value}, {"unit", unit.empty() ? unit_of_key(key) : unit}}});
-    else if (value.is_boolean())
-      rows.push_back({label, value.get<bool>() ? "yes" : "no"});
-    else if (value.is_string())
-      rows.push_back({label, value});
-  }
+// What the page calls a key of the summary.
+std::string label_of_key(const std::string& key) {
+  static const std::map<std::string, std::string> labels{{"seconds", "wall time"},
+                                                         {"setup_seconds", "setup"},
+                                                         {"solve_seconds", "solve"},
+                                                         {"levels", "multigrid levels"},
+                                                         {"time", "simulated time"},
+                                                         {"reason", "ended by"},
+                                                         {"projected_motions", "rigid motions taken out"}};
+  if (const auto label = labels.find(key); label != labels.end()) return label->second;
+  std::string words = key;
+  std::ranges::replace(words, '_', ' ');
+  return words;
+}
+
+// PETSc's names for the ends a solve comes to, in words.
+std::string words_of_reason(const std::string& reason) {
+  static const std::map<std::string, std::string> words{{"CONVERGED_RTOL", "relative residual below tolerance"},
+                                                        {"CONVERGED_ATOL", "residual of rounding size"},
+                                                        {"CONVERGED_ITS", "number of iterations"}};
+  const auto known = words.find(reason);
+  return known == words.end() ? reason : known->second;
+}
+
+// The numbers, words and yes-or-no of one part of the summary; null when there are none.
+json part_table(const std::string& title, const json& part, const std::string& unit = {}) {
+  json block = table({column("quantity"), column("value")});
+  block["title"] = title;
+  if (part.is_object())
+    for (const auto& [key, value] : part.items()) {
+      const std::string label = label_of_key(key);
+      if (value.is_number())
+        block["rows"].push_back({label, json{{"value", value}, {"unit", unit.empty() ? unit_of_key(key) : unit}}});
+      else if (value.is_boolean())
+        block["rows"].push_back({label, value.get<bool>() ? "yes" : "no"});
+      else if (value.is_string())
+        block["rows"].push_back({label, key == "reason" ? words_of_reason(value) : value.get<std::string>()});
+    }
+  return block["rows"].empty() ? json() : block;
 }
 
 }  // namespace
 
 std::string report_subtitle(const model::Definition& definition) {
   const model::LatticeDefinition& lattice = definition.lattice;
-  return fmt::format("{}, {} springs, {} calibration, {} kinematics; {} analysis", lattice::name(lattice.cell),
+  std::string cell(lattice::name(lattice.cell));
+  cell[0] = static_cast<char>(std::toupper(cell[0]));
+  return fmt::format("{}, {} springs, {} calibration, {} kinematics; {} analysis", cell,
                      model::choice_name(lattice.springs), model::choice_name(definition.calibration()),
                      model::choice_name(lattice.kinematics), model::choice_name(definition.analysis.type));
 }
@@ -116,7 +146,7 @@ nlohmann::ordered_json materials_table(const model::Definition& definition) {
 
 SpringTables spring_tables(const model::Definition& definition, const nlohmann::ordered_json& summary) {
   SpringTables tables{
-      table({column("material"), column("bonds"), column("kn", "N/m"), column("kt", "N/m"), column("κ", "Pa")}),
+      table({column("material"), column("bonds"), column("k_n", "N/m"), column("k_t", "N/m"), column("κ", "Pa")}),
       table({column("material"), column("E asked", "Pa"), column("E_x", "Pa"), column("E_y", "Pa"), column("E_z", "Pa"),
              column("deviation"), column("ν asked"), column("ν_xy"), column("ν_yz"), column("ν_zx"),
              column("deviation"), column("Zener ratio")})};
@@ -143,7 +173,7 @@ nlohmann::ordered_json probe_tables(const model::Definition& definition, const n
       if (probe.quantity != quantity) continue;
       const json value = summary.value(json::json_pointer("/probes") / probe.name / name, json::array());
       if (value.size() != components.size()) continue;
-      json row{probe.name, selection_text(probe)};
+      json row{probe.name, probe_place(probe)};
       row.insert(row.end(), value.begin(), value.end());
       block["rows"].push_back(row);
     }
@@ -154,12 +184,13 @@ nlohmann::ordered_json probe_tables(const model::Definition& definition, const n
   return tables;
 }
 
-nlohmann::ordered_json numbers_table(const nlohmann::ordered_json& summary) {
-  json block = table({column("quantity"), column("value")});
-  append_part(block["rows"], summary.value("analysis", json()), "", "");
-  append_part(block["rows"], summary.value("energy", json()), " energy", "J");
-  append_part(block["rows"], summary.value("performance", json()), "", "");
-  return block;
+nlohmann::ordered_json run_tables(const nlohmann::ordered_json& summary) {
+  json tables = json::array();
+  for (json block : {part_table("Analysis", summary.value("analysis", json())),
+                     part_table("Energy", summary.value("energy", json()), "J"),
+                     part_table("Performance", summary.value("performance", json()))})
+    if (!block.is_null()) tables.push_back(std::move(block));
+  return tables;
 }
 
 }  // namespace koshi::driver

@@ -24,7 +24,7 @@ SpringTables spring_tables(const model::Definition& definition, const nlohmann::
 /// A table for each quantity that the summary's probes hold.
 nlohmann::ordered_json probe_tables(const model::Definition& definition, const nlohmann::ordered_json& summary);
 
-/// The numbers of the summary's parts "analysis", "energy" and "performance".
-nlohmann::ordered_json numbers_table(const nlohmann::ordered_json& summary);
+/// A table for each of the summary's parts "analysis", "energy" and "performance".
+nlohmann::ordered_json run_tables(const nlohmann::ordered_json& summary);
 
 }  // namespace koshi::driver
