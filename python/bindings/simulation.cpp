@@ -65,8 +65,12 @@ py::dict run_to_end(Simulation& simulation, const std::optional<std::function<bo
   const driver::Outcome outcome = run(simulation, observer, directory, petsc_options);
   if (thrown) std::rethrow_exception(thrown);
   if (!outcome.stopped) driver::require_rest(simulation.model(), outcome);
+  const auto residuals = outcome.solution ? outcome.solution->residual_history : std::vector<double>{};
+  if (outcome.solution && poll) (*poll)();
   return py::dict(py::arg("steps") = outcome.steps, py::arg("time_step") = outcome.time_step,
                   py::arg("iterations") = outcome.solution ? outcome.solution->iterations : 0,
+                  py::arg("residuals") =
+                      py::array_t<double>(static_cast<py::ssize_t>(residuals.size()), residuals.data()),
                   py::arg("stopped") = outcome.stopped, py::arg("seconds") = outcome.seconds,
                   py::arg("measurement") = measured(simulation.model(), outcome.measurement));
 }

@@ -34,6 +34,8 @@ class Result:
     """[s], 0 for a static analysis"""
     iterations: int
     """of a static analysis"""
+    residuals: np.ndarray
+    """relative residual of a static analysis after 0, 1, 2, ... iterations"""
     stopped: bool
     """the callback asked to stop"""
     seconds: float
@@ -107,9 +109,11 @@ class Simulation:
     ) -> Result:
         """Runs the analysis of the case from the present state to its end.
 
-        callback: called every ten explicit steps with the simulation; True stops the run.
+        callback: called with the simulation every ten explicit steps, where True stops the run, or once with the
+        solution of a static analysis.
         out: a directory for summary, history and fields, as written by `koshi run`.
-        progress: called with the part of the work done (negative: unknown) and a few words.
+        progress: called with the part of the work done (negative: unknown) and a few words, in a static analysis
+        after each iteration.
         Raises InputError for an unstable step or a missing support, RunError when the run fails or does not come to
         rest.
         """

@@ -32,6 +32,10 @@ def test_section_of_a_node_field_averages_corners_and_leaves_voids_blank(simulat
     assert (np.ma.getmaskarray(values) == mask).all()
     assert values.compressed() == pytest.approx(expected[~mask])
     assert ax.get_xlabel() == "x [m]" and ax.get_ylabel() == "z [m]"
+    assert ax.collections[0].colorbar.ax.get_ylabel() == "u$_{z}$ [m]"
+    # The same by its name; one sign, hence the plain map over the values.
+    assert (plot.section(simulation, component="z", normal="y", ax=plt.figure().gca()).collections[0].get_array() == values.ravel()).all()
+    assert ax.collections[0].get_clim() == pytest.approx((1e-6, 7e-6))
 
 
 def test_section_of_a_cell_field_on_the_deformed_body(simulation):
@@ -39,6 +43,17 @@ def test_section_of_a_cell_field_on_the_deformed_body(simulation):
     assert ax.collections[0].get_array().compressed() == pytest.approx(np.full(4, 1e-3))
     # Corners move to x (1 + 100 * 1e-3).
     assert ax.collections[0].get_coordinates()[0, :, 0] == pytest.approx([0, 1.1e-3, 2.2e-3])
+
+
+def test_signed_values_lie_about_zero_and_unknown_components_are_refused(simulation):
+    x, _, _ = simulation.coordinates
+    simulation.displacement[0] = -2e-3 * x * (x > 1e-3) + 1e-3 * x * (x <= 1e-3)
+    mesh = plot.section(simulation, "strain", "xx", normal="z", index=0).collections[0]
+    # u_x = 0, 1e-6, -4e-6 m at x = 0, 1, 2 mm: strains of 1e-3 and -5e-3.
+    assert mesh.get_array().compressed() == pytest.approx([1e-3, -5e-3, 1e-3, -5e-3])
+    assert mesh.get_clim() == pytest.approx((-5e-3, 5e-3))
+    with pytest.raises(ValueError, match="no component 'w'; take one of x, y, z or its number"):
+        plot.section(simulation, component="w")
 
 
 def test_curve():

@@ -83,14 +83,32 @@ def test_callback_sees_and_stops_the_run(case):
     assert seen == [10, 20, 30, 40] and result.steps == 40 and result.stopped
 
 
-def test_exceptions_of_a_callback_come_through(case):
+@pytest.mark.parametrize("type", ["quasi-static", "static"])
+def test_exceptions_of_a_callback_come_through(case, type):
     def fail(*_):
         raise KeyError("mine")
 
+    case.analysis = koshi.Analysis(type, tolerance=1e-9)
     with pytest.raises(KeyError, match="mine"):
         koshi.run(case, callback=fail)
     with pytest.raises(KeyError, match="mine"):
         koshi.run(case, progress=fail)
+
+
+def test_static_analysis_tells_its_iterations_and_shows_its_solution(case):
+    case.analysis = koshi.Analysis("static", tolerance=1e-10)
+    seen, steps = [], []
+    result = koshi.run(case, callback=lambda s: seen.append(s.displacement[2].max()), progress=lambda *p: steps.append(p))
+    assert seen == pytest.approx([PULLED], rel=1e-9)
+    assert result.measurement.probes["top"][2] == pytest.approx(PULLED, rel=1e-9)
+    assert len(result.residuals) == result.iterations + 1 == len(steps)
+    assert result.residuals[0] == 1 and result.residuals[-1] <= 1e-10 < result.residuals[-2]
+    assert "iteration 0" in steps[0][1] and not result.stopped
+    # Between solutions the load changes.
+    simulation = koshi.Simulation(case)
+    simulation.run()
+    simulation.set_load_factor("pull", 3)
+    assert simulation.run().measurement.probes["top"][2] == pytest.approx(3 * PULLED, rel=1e-9)
 
 
 def test_failures_raise(case):
