@@ -67,12 +67,12 @@ py::dict run_to_end(Simulation& simulation, const std::optional<std::function<bo
   if (!outcome.stopped) driver::require_rest(simulation.model(), outcome);
   const auto residuals = outcome.solution ? outcome.solution->residual_history : std::vector<double>{};
   if (outcome.solution && poll) (*poll)();
-  return py::dict(py::arg("steps") = outcome.steps, py::arg("time_step") = outcome.time_step,
-                  py::arg("iterations") = outcome.solution ? outcome.solution->iterations : 0,
-                  py::arg("residuals") =
-                      py::array_t<double>(static_cast<py::ssize_t>(residuals.size()), residuals.data()),
-                  py::arg("stopped") = outcome.stopped, py::arg("seconds") = outcome.seconds,
-                  py::arg("measurement") = measured(simulation.model(), outcome.measurement));
+  return py::dict(
+      py::arg("steps") = outcome.steps, py::arg("time_step") = outcome.time_step,
+      py::arg("iterations") = outcome.solution ? outcome.solution->iterations : 0,
+      py::arg("residuals") = py::array_t<double>(static_cast<py::ssize_t>(residuals.size()), residuals.data()),
+      py::arg("stopped") = outcome.stopped, py::arg("seconds") = outcome.seconds,
+      py::arg("measurement") = measured(simulation.model(), outcome.measurement));
 }
 
 py::array field(Simulation& simulation, const std::string& name) {
