@@ -1,4 +1,4 @@
-"""The case shown in both READMEs is the same and valid. Usage: test_readme.py PROGRAM"""
+"""Both READMEs show the same valid case, the same numbers and the same links. Usage: test_readme.py PROGRAM"""
 
 import re
 import subprocess
@@ -6,11 +6,16 @@ import sys
 import tempfile
 from pathlib import Path
 
-cases = []
+cases, numbers, links = [], [], []
 for name in ("README.md", "README.ja.md"):
     readme = (Path(__file__).parents[2] / name).read_text(encoding="utf-8")
     cases += re.findall(r"```toml\n(.*?)```", readme, re.DOTALL)
+    rows = re.findall(r"^\|.*\|$", readme, re.MULTILINE)
+    numbers.append([re.findall(r"\d+\.\d+", row) for row in rows])
+    links.append(sorted(set(re.findall(r"\]\(([^)]+)\)", readme)) - {"README.md", "README.ja.md"}))
 assert len(cases) == 2 and cases[0] == cases[1], cases
+assert numbers[0] == numbers[1] and sum(map(len, numbers[0])) >= 15, numbers
+assert links[0] == links[1] and len(links[0]) >= 10, links
 
 with tempfile.TemporaryDirectory() as folder:
     case = Path(folder, "beam.toml")
