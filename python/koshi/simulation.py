@@ -129,7 +129,7 @@ class Simulation:
     def field(self, name: str) -> np.ndarray:
         """A field of output.fields, computed from the present state: a copy (components, nz, ny, nx).
 
-        Strain, stress [Pa] (xx, yy, zz, yz, xz, xy) and energy [J] are those of the cells.
+        Strain, stress [Pa] (xx, yy, zz, yz, xz, xy) and energy [J/m^3] are those of the cells.
         """
         return self._core.field(name)
 
