@@ -134,8 +134,10 @@ def input_page(schema):
             title, keys = f"[[{name}]]", table["items"]
         elif "properties" not in table:
             title, keys = f"[{name}.NAME]", table["additionalProperties"]
+        groups = [[code(key["required"][0]) for key in group["oneOf"]] for group in keys.get("allOf", [])]
+        one_of = [f"Exactly one of {', '.join(names)} must be given." for names in groups]
         # Brackets would make a link of the heading.
-        lines += [f"## `{title}` {{#{name}}}", "", table["description"], ""]
+        lines += [f"## `{title}` {{#{name}}}", "", table["description"], "", " ".join(one_of), ""]
         rows, nested = key_table(keys)
         lines += rows + [""]
         for inner, inner_table in nested.items():

@@ -17,6 +17,8 @@ struct KeyInfo {
   bool required = false;    ///< where it applies
   std::string description;  ///< sentences
   std::string example;      ///< TOML text of a value; empty: the one of its form
+  /// Groups of keys of which exactly one must be given; for the schema, model::check refuses others.
+  std::vector<std::string> one_of;
   /// Where the key has a meaning, e.g. `shape "sphere"`; empty: everywhere.
   std::string condition;
   /// The keys that the condition looks at. When one of them is given by --set, a key of the file that lost its meaning
@@ -55,6 +57,7 @@ struct About {
   std::string title{};
   Range range{};
   std::string example{};
+  std::vector<std::string> one_of{};
 };
 
 /// A key that sets `member`: a pointer to member, or a function from S& to a reference.
@@ -66,6 +69,7 @@ Key<S> key(const std::string& name, Member member, const std::string& descriptio
   result.spec = {name, about.dimension, about.rotation, about.unset_word, about.allowed, about.title, about.range};
   result.required = about.required;
   result.example = about.example;
+  result.one_of = about.one_of;
   result.description = description;
   result.expected = of_type.expected;
   result.schema = of_type.schema;

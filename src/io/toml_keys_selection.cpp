@@ -14,14 +14,16 @@ template <class D>
 std::vector<Key<D>> selection_keys(const std::string& name_description, bool name_required) {
   return {
       key<D>("name", &D::name, name_description, {.required = name_required, .example = R"("top")"}),
-      key<D>(
-          "face", [](auto& s) -> auto& { return s.selection.face; }, "Selects the nodes of a face of the box."),
+      key<D>("face", [](auto& s) -> auto& { return s.selection.face; }, "Selects the nodes of a face of the box.",
+             {.one_of = {"where"}}),
       key<D>("box", [](auto& s) -> auto& { return s.selection.box; },
              "Selects the nodes inside a box or on its border.",
-             {.dimension = Dimension::length, .example = "{min = [0, 0, 0], max = [\"1 cm\", \"1 cm\", 0]}"}),
+             {.dimension = Dimension::length,
+              .example = "{min = [0, 0, 0], max = [\"1 cm\", \"1 cm\", 0]}",
+              .one_of = {"where"}}),
       key<D>("point", [](auto& s) -> auto& { return s.selection.point; },
              "Selects the nearest node, at most half a spacing away in every direction.",
-             {.dimension = Dimension::length, .example = R"(["0.8 cm", "7.8 cm", "1.0 cm"])"}),
+             {.dimension = Dimension::length, .example = R"(["0.8 cm", "7.8 cm", "1.0 cm"])", .one_of = {"where"}}),
   };
 }
 
@@ -80,13 +82,15 @@ const std::vector<Key<LoadDefinition>>& keys_of(Tag<LoadDefinition>) {
       joined(selection_keys<D>("Name for messages and --set; unset: \"load 1\" and so on.", false),
              {
                  key<D>("force", &D::force, "Total force on the selection.",
-                        {.dimension = Dimension::force, .example = R"(["9.8 N", "0 N", "0 N"])"}),
+                        {.dimension = Dimension::force, .example = R"(["9.8 N", "0 N", "0 N"])", .one_of = {"what"}}),
                  key<D>("traction", &D::traction, "Force per area.",
-                        {.dimension = Dimension::pressure, .example = R"([0, 0, "-2 MPa"])"}),
+                        {.dimension = Dimension::pressure, .example = R"([0, 0, "-2 MPa"])", .one_of = {"what"}}),
                  key<D>("pressure", &D::pressure, "Pressure against the outward normal of the face.",
-                        {.dimension = Dimension::pressure, .example = R"("2 MPa")"}),
+                        {.dimension = Dimension::pressure, .example = R"("2 MPa")", .one_of = {"what"}}),
                  key<D>("acceleration", &D::acceleration, "Body force per mass, on the whole body.",
-                        {.dimension = Dimension::acceleration, .example = R"([0, 0, "-9.80665 m/s^2"])"}),
+                        {.dimension = Dimension::acceleration,
+                         .example = R"([0, 0, "-9.80665 m/s^2"])",
+                         .one_of = {"where", "what"}}),
                  key<D>("distribution", &D::distribution,
                         "The total force is spread by the area each node stands for, or evenly over the nodes.")
                      .only_for("a load with force", {"force"}, [](const D& load) { return load.force.has_value(); }),

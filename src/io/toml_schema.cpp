@@ -37,6 +37,7 @@ Json json_of_text(const std::string& text) {
 void object_schema(const std::vector<Described>& keys, Json& out) {
   Json properties;
   Json required = Json::array();
+  Json groups = Json::object();
   for (const auto& [key, default_text] : keys) {
     Json& schema = properties[key.spec.name];
     key.schema(key.spec, schema);
@@ -44,11 +45,13 @@ void object_schema(const std::vector<Described>& keys, Json& out) {
     if (!default_text.empty()) schema["default"] = json_of_text(default_text);
     if (!key.example.empty()) schema["examples"] = Json::array({json_of_text(key.example)});
     if (key.required && key.condition.empty()) required.push_back(key.spec.name);
+    for (const std::string& group : key.one_of) groups[group].push_back({{"required", {key.spec.name}}});
     // JSON Schema leaves further keywords to whoever reads them.
     if (key.required && !key.condition.empty()) schema["requiredWhereItApplies"] = true;
   }
   out = {{"type", "object"}, {"properties", properties}, {"additionalProperties", false}};
   if (!required.empty()) out["required"] = required;
+  for (const auto& group : groups) out["allOf"].push_back({{"oneOf", group}});
 }
 
 void list_schema(const std::vector<Described>& keys, Json& out) {

@@ -155,6 +155,44 @@ TEST(Schema, EveryValueHasAnExample) {
   EXPECT_EQ(count, 3 + 6 + 3 + 11 + 10 + 9 + 6 + 3 + 5);
 }
 
+// Of some keys exactly one must be given: the schema says so, and the check refuses two of them, and none.
+TEST(Schema, GroupsAreThoseOfTheCheck) {
+  const Json schema = Json::parse(schema_json());
+  const auto groups = [&](const std::string& table) {
+    std::vector<std::vector<std::string>> result;
+    for (const Json& group : schema.at("properties").at(table).at("items").at("allOf")) {
+      result.emplace_back();
+      for (const Json& key : group.at("oneOf")) result.back().push_back(key.at("required").at(0));
+    }
+    return result;
+  };
+  using Groups = std::vector<std::vector<std::string>>;
+  EXPECT_EQ(groups("boundary"), (Groups{{"face", "box", "point"}}));
+  EXPECT_EQ(groups("probe"), (Groups{{"face", "box", "point"}}));
+  EXPECT_EQ(groups("load"),
+            (Groups{{"face", "box", "point", "acceleration"}, {"force", "traction", "pressure", "acceleration"}}));
+
+  const std::map<std::string, std::string> values{{"face", "x-max"},
+                                                  {"box", "{min = [0, 0, 0], max = [1, 1, 1]}"},
+                                                  {"point", "[0, 0, 0]"},
+                                                  {"force", "[1, 0, 0]"},
+                                                  {"traction", "[1, 0, 0]"},
+                                                  {"pressure", "1"},
+                                                  {"acceleration", "[1, 0, 0]"}};
+  int count = 0;
+  for (const std::string table : {"boundary.bottom", "load.push", "probe.tip"})
+    for (const auto& group : groups(table.substr(0, table.find('.'))))
+      for (const std::string& first : group)
+        for (const std::string& second : group) {
+          if (first == second) continue;
+          const std::vector<std::string> overrides{fmt::format("{}.{}={}", table, first, values.at(first)),
+                                                   fmt::format("{}.{}={}", table, second, values.at(second))};
+          EXPECT_NE(tests::message_of(tests::right_case, overrides), "") << overrides[0] << ' ' << overrides[1];
+          ++count;
+        }
+  EXPECT_EQ(count, 6 + 12 + 12 + 6);
+}
+
 // What lies outside a range of the schema is refused by the check, what lies on an inclusive border is not.
 TEST(Schema, RangesAreThoseOfTheCheck) {
   const std::filesystem::path corpus = std::filesystem::path(KOSHI_SOURCE_DIR) / "tests/fuzz/corpus/input";
