@@ -76,6 +76,7 @@ class Region:
     """Cells whose centre lies inside a shape get another material; later regions win."""
 
     shape: Literal["box", "sphere", "cylinder", "half-space", "stl"]
+    """decides which of the others count"""
     material: str
     """a material's name, or "void" """
     min: Vector | None = None
@@ -105,7 +106,9 @@ class Boundary:
     """Prescribed motion of the nodes of a face, box or point."""
 
     name: str | None = None
+    """for messages and factors"""
     face: Face | None = None
+    """all nodes of a face of the box"""
     box: Mapping[Literal["min", "max"], Vector] | None = None
     """nodes inside or on the border [m]"""
     point: Vector | None = None
@@ -131,9 +134,13 @@ class Load:
     """Forces: exactly one of force, traction, pressure, acceleration."""
 
     name: str | None = None
+    """for messages and factors"""
     face: Face | None = None
+    """all nodes of a face of the box"""
     box: Mapping[Literal["min", "max"], Vector] | None = None
+    """nodes inside or on the border [m]"""
     point: Vector | None = None
+    """the nearest node [m]"""
     force: Vector | None = None
     """in total [N]"""
     traction: Vector | None = None
@@ -161,6 +168,7 @@ class Analysis:
     time_step: Quantity | None = None
     """[s], default "auto" """
     allow_unstable_step: bool | None = None
+    """run with a time step above the stable limit all the same"""
     safety: float | None = None
     """ratio of the automatic step to the stable limit, default 0.9"""
     damping: Mapping[str, Quantity] | None = None
@@ -174,9 +182,13 @@ class Probe:
     """A value reported by name."""
 
     name: str
+    """in the results"""
     face: Face | None = None
+    """all nodes of a face of the box"""
     box: Mapping[Literal["min", "max"], Vector] | None = None
+    """nodes inside or on the border [m]"""
     point: Vector | None = None
+    """the nearest node [m]"""
     quantity: Literal["displacement", "rotation", "velocity", "reaction", "moment", "stress", "strain"] | None = None
     """default "displacement" """
     reduce: Literal["mean", "area-mean", "sum", "max"] | None = None
@@ -208,16 +220,25 @@ class Case:
     """A whole input."""
 
     lattice: Lattice
+    """unit cell, spacing and springs"""
     body: Body
+    """the box of cells"""
     material: dict[str, Material]
     """by name"""
     region: list[Region] = field(default_factory=list)
+    """shapes of another material, later ones win"""
     boundary: list[Boundary] = field(default_factory=list)
+    """prescribed motions"""
     load: list[Load] = field(default_factory=list)
+    """forces"""
     analysis: Analysis = field(default_factory=Analysis)
+    """what is computed"""
     probe: list[Probe] = field(default_factory=list)
+    """values reported by name"""
     output: Output = field(default_factory=Output)
+    """what is written"""
     title: str | None = None
+    """for people"""
 
     def to_toml(self) -> str:
         """The whole input as TOML, every default written out, in SI units. Raises InputError."""
