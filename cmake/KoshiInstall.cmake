@@ -6,6 +6,7 @@ install(TARGETS koshi EXPORT koshiTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LI
 install(TARGETS koshi_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/koshi TYPE INCLUDE)
 install(FILES README.md README.ja.md LICENSE CITATION.cff CHANGELOG.md TYPE DOC)
+install(FILES LICENSE TYPE DOC RENAME copyright)
 
 # Man page, from the program's own help, and completion.
 install(FILES apps/koshi/koshi.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME koshi)
@@ -29,8 +30,12 @@ install(FILES cmake/koshiConfig.cmake cmake/KoshiDependencies.cmake ${PROJECT_BI
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_CONTACT "The Koshi developers <koshi@example.org>")
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY ${PROJECT_DESCRIPTION})
+set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "From Young's modulus, Poisson's ratio and a body of cubic cells Koshi makes springs
+between the cells' corners, and solves for motion by explicit steps or for
+equilibrium by multigrid, on any number of ranks. The package holds the
+program, the static library with its headers, and the Python module.")
 set(CPACK_STRIP_FILES ON)
-set(CPACK_DEBIAN_FILE_NAME "koshi_${PROJECT_VERSION}_amd64.deb")
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)

@@ -10,7 +10,7 @@ from pathlib import Path
 WARN, LIMIT = 400, 450
 SUFFIXES = (".h", ".cpp", ".py", ".js", ".ts", ".sh", ".cmake")
 TOPS = ("include", "src", "apps", "python", "bench", "tests", "scripts", "cmake", "report", "docs", "examples")
-SKIPPED = ("node_modules", "dist")
+SKIPPED = ("node_modules", "dist", "build")
 
 # File -> why it may be longer.
 EXCEPTIONS = {}

@@ -1,5 +1,6 @@
 #include "driver/report.h"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -52,15 +53,27 @@ json facts(const model::Definition& definition, const json& summary) {
   return list;
 }
 
-// Where the built page lies: said by the environment, beside the program in the build or installed tree, or where this
-// build is to be installed (for the library in other programs).
+// The file that holds this code: the program, or the Python module.
+fs::path own_file() {
+  Dl_info info{};
+  if (::dladdr(reinterpret_cast<const void*>(&own_file), &info) == 0 || info.dli_fname == nullptr) return {};
+  std::error_code unknown;
+  const fs::path file = fs::canonical(info.dli_fname, unknown);
+  return unknown ? fs::path() : file;
+}
+
+// Where the built page lies: said by the environment, in share/koshi of the build or installed tree that the program or
+// module belongs to (prefix/bin/koshi, prefix/lib/python3/dist-packages/koshi/_koshi.so), or where this build is to be
+// installed (for the library in other programs).
 fs::path find_template() {
   std::vector<fs::path> places;
   if (const char* said = std::getenv("KOSHI_REPORT_TEMPLATE")) places.emplace_back(said);
   std::error_code unknown;
-  const fs::path program = fs::read_symlink("/proc/self/exe", unknown).parent_path();
-  places.push_back(program / "share/koshi/report.html");
-  places.push_back(program.parent_path() / "share/koshi/report.html");
+  for (const fs::path& file : {fs::path(fs::read_symlink("/proc/self/exe", unknown)), own_file()}) {
+    fs::path folder = file.parent_path();
+    for (int up = 0; up < 5 && folder.has_relative_path(); ++up, folder = folder.parent_path())
+      places.push_back(folder / "share/koshi/report.html");
+  }
   places.emplace_back(KOSHI_DATA_DIRECTORY "/report.html");
   for (const fs::path& place : places)
     if (fs::exists(place)) return place;

@@ -100,7 +100,8 @@ std::string note(const Surface& surface, std::size_t shown, std::size_t samples)
   std::vector<std::string> parts;
   if (surface.stride > 1)
     parts.push_back(
-        fmt::format("The surface has {} points; it is thinned to {}, one for each block of {} cells along x, y and z.",
+        fmt::format("The surface has {} points; it is thinned to {}, one for each block of {} cells along x, y and z; "
+                    "smaller voids are closed.",
                     surface.body_points, surface.points.size(), surface.stride));
   if (!surface.has_interior) parts.push_back("The inside is too large for this page: a cut shows the body hollow.");
   if (shown < samples) parts.push_back(fmt::format("{} of {} samples are shown.", shown, samples));

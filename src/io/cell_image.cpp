@@ -12,6 +12,7 @@
 #include <vtkXMLImageDataReader.h>
 
 #include <cmath>
+#include <fstream>
 #include <map>
 #include <optional>
 #include <set>
@@ -35,6 +36,19 @@ vtkSmartPointer<vtkImageData> read_with(const std::filesystem::path& file, const
   if (!errors.first().empty()) throw InputError(fmt::format("cannot be read as {}: {}", format, errors.first()));
   if (reader->GetErrorCode() != 0) throw InputError(fmt::format("cannot be read as {}; it may be cut short", format));
   return reader->GetOutput();
+}
+
+// VTK's reader takes the bytes of an encoding it does not know for the values.
+void check_nrrd_encoding(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  const std::string key = "encoding:";
+  for (std::string line; std::getline(stream, line) && !line.empty() && line != "\r";) {
+    if (!line.starts_with(key)) continue;
+    const auto first = line.find_first_not_of(' ', key.size()), last = line.find_last_not_of(" \r");
+    const std::string encoding = first == std::string::npos ? "" : line.substr(first, last + 1 - first);
+    if (encoding != "raw" && encoding != "gzip" && encoding != "gz")
+      throw InputError(fmt::format("has the encoding \"{}\"; save it as \"raw\" or \"gzip\"", encoding));
+  }
 }
 
 CellImage image_of(vtkDataArray* values, const Int3& cells) {
@@ -94,6 +108,7 @@ std::string list_of(const std::set<double>& values) {
 CellImage read_cell_image(const std::filesystem::path& file) {
   const std::string format = file.extension().string();
   if (format == ".vti") return image_of_cells(read_with<vtkXMLImageDataReader>(file, "a VTK image (.vti)"));
+  if (format == ".nrrd") check_nrrd_encoding(file);
   if (format == ".nrrd") return image_of_points(read_with<vtkNrrdReader>(file, "an NRRD image"));
   if (format == ".mha" || format == ".mhd") return image_of_points(read_with<vtkMetaImageReader>(file, "a MetaImage"));
   const NpyArray array = read_npy(file);

@@ -34,8 +34,9 @@ class VtkErrors {
 
   /// The first message, of one line, without VTK's own whereabouts; empty when there was none.
   std::string first() const {
-    // "ERROR: In FILE, line N\nvtkReader (0x...): what is wrong\n\n"
+    // "ERROR: In FILE, line N\nvtkReader (0x...): what is wrong\n\n", or the same without the reader's name
     std::string text = window_->said.str();
+    if (text.substr(0, text.find('\n')).find(": In ") != std::string::npos) text.erase(0, text.find('\n') + 1);
     if (const auto at = text.find("): "); at != std::string::npos) text.erase(0, at + 3);
     return text.substr(0, text.find('\n'));
   }

@@ -194,7 +194,9 @@ TEST_F(LoadFilesTest, WrongImagesAreRefusedAtTheirKey) {
   expect_refused("text.nrrd", "is not an NRRD image");
   write("short.nrrd",
         "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4 3 2\nkinds: domain domain domain\nencoding: raw\n\n12345");
-  expect_refused("short.nrrd", "cannot be read as an NRRD image");
+  expect_refused("short.nrrd", "cannot be read as an NRRD image: File operation failed");
+  write("ascii.nrrd", "NRRD0004\r\ntype: uchar\r\ndimension: 3\r\nsizes: 3 1 1\r\nencoding: ascii\r\n\r\n1 1 1");
+  expect_refused("ascii.nrrd", "has the encoding \"ascii\"; save it as \"raw\" or \"gzip\"");
   write("short.mha",
         "ObjectType = Image\nNDims = 3\nBinaryData = True\nDimSize = 4 3 2\nElementType = MET_UCHAR\nElementDataFile = "
         "LOCAL\n12345");
