@@ -19,7 +19,7 @@ export function header({ title, subtitle, facts = [], version }, links) {
 
 /** What the springs were made from and the body was put to. */
 export function model({ materials, conditions, springs, achieved }) {
-  const titled = { Materials: materials, "Supports and loads": conditions, Springs: springs, "Elastic constants: asked and achieved": achieved };
+  const titled = { Materials: materials, Springs: springs, "Supports and loads": conditions && { ...conditions, broad: true }, "Elastic constants: asked and achieved": achieved };
   return section("model", "Model", tables(Object.entries(titled).filter(([, block]) => block).map(([title, block]) => ({ title, ...block }))));
 }
 

@@ -21,7 +21,7 @@ export function table(block) {
   const head = columns.map(({ name, unit, numeric }) =>
     element("th", { scope: "col", class: numeric ? "number" : null }, ...subscripted(labelled(name, unit))));
   const body = block.rows.map((row) => element("tr", {}, ...row.map((value, i) => cell(value, columns[i]))));
-  return element("div", { class: columns.length > 8 ? "table broad" : "table" },
+  return element("div", { class: block.broad || columns.length > 8 ? "table broad" : "table" },
     block.title ? element("h3", {}, ...subscripted(block.title)) : null,
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": block.title ?? "Table" },
       element("table", {}, element("thead", {}, element("tr", {}, ...head)), element("tbody", {}, ...body))),

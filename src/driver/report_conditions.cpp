@@ -13,7 +13,7 @@ json quantity(const json& value, const char* unit) { return {{"value", value}, {
 
 json over_time(const model::History& history, double ramp) {
   if (!history.empty())
-    return fmt::format("by a factor over time, {} points, {:.6g} at the end", history.size(), history.back()[1]);
+    return fmt::format("times a factor given at {} times, {:.6g} at the end", history.size(), history.back()[1]);
   return ramp > 0 ? fmt::format("rises from 0 within {:.6g} s", ramp) : "constant";
 }
 

@@ -79,7 +79,6 @@ std::string probe_place(const model::ProbeDefinition& probe) {
 
 // SI unit of a number of the summary, which goes by its key.
 std::string unit_of_key(const std::string& key) {
-  if (key.ends_with("per_second")) return "1/s";
   if (key.ends_with("seconds") || key == "time" || key == "time_step") return "s";
   if (key.ends_with("memory")) return "B";
   return "1";
@@ -115,7 +114,10 @@ json part_table(const std::string& title, const json& part, const std::string& u
   block["title"] = title;
   if (part.is_object())
     for (const auto& [key, value] : part.items()) {
-      const std::string label = label_of_key(key);
+      // Motion has no rest to come to; what stepping leaves over is forces, not an equation's residual.
+      if (key == "converged" && part.value("type", "") == "dynamic") continue;
+      const std::string label =
+          key == "residual" && part.contains("steps") ? "unbalanced-force ratio" : label_of_key(key);
       if (value.is_number())
         block["rows"].push_back({label, json{{"value", value}, {"unit", unit.empty() ? unit_of_key(key) : unit}}});
       else if (value.is_boolean())

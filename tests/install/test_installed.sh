@@ -32,7 +32,7 @@ check_page out/report.html || { echo "no report"; exit 1; }
 if [ -n "$python" ]; then
   PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=$root/$modules "$python" - "$case" "$root" $page <<'END'
 import json, sys
-import koshi
+import koshi, koshi.plot
 assert koshi.__file__.startswith(sys.argv[2]), koshi.__file__
 result = koshi.run(sys.argv[1], out="python", overrides=["output.report=" + sys.argv[3]])
 probes = json.load(open("out/summary.json"))["probes"]

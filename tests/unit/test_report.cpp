@@ -188,7 +188,7 @@ TEST_F(Results, HeadAndTables) {
       ["top", "y-max", "displacement x", {"value": 0.01, "unit": "m"}, "rises from 0 within 0.5 s"],
       ["weight", "whole body", "acceleration", {"value": [0.0, 0.0, -9.8], "unit": "m/s^2"}, "constant"],
       ["push", "box (0, 0, 1.5) to (1, 1, 1.5) m", "pressure", {"value": 100.0, "unit": "Pa"},
-       "by a factor over time, 2 points, 3 at the end"]])"));
+       "times a factor given at 2 times, 3 at the end"]])"));
   EXPECT_EQ(data.at("convergence").at("residuals"), json({1, 0.1, 1e-9}));
 }
 
