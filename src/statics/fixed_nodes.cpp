@@ -13,10 +13,19 @@ bool before(const FixedNode& a, const FixedNode& b) {
 
 }  // namespace
 
-FixedNodes coarsened(const FixedNodes& fine) {
-  FixedNodes halved = fine;
-  for (FixedNode& fixed : halved)
-    for (std::int64_t& x : fixed.node) x /= 2;
+FixedNodes coarsened(const FixedNodes& fine, const Int3& owned, const Int3& coarse_owned) {
+  FixedNodes halved;
+  for (const FixedNode& fixed : fine) {
+    Int3 first, last;
+    for (int a = 0; a < 3; ++a) {
+      first[a] = last[a] = fixed.node[a] / 2;
+      const bool is_end = fixed.node[a] == owned[a] - 1 && fixed.node[a] % 2 == 1;
+      if (is_end && first[a] + 2 == coarse_owned[a]) ++last[a];
+    }
+    for (std::int64_t k = first[2]; k <= last[2]; ++k)
+      for (std::int64_t j = first[1]; j <= last[1]; ++j)
+        for (std::int64_t i = first[0]; i <= last[0]; ++i) halved.push_back({{i, j, k}, fixed.mask});
+  }
   std::sort(halved.begin(), halved.end(), before);
   FixedNodes coarse;
   for (const FixedNode& fixed : halved) {

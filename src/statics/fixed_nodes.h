@@ -19,8 +19,9 @@ using FixedNodes = std::vector<FixedNode>;
 /// On the next coarser level a component is fixed where it is fixed on one of the eight fine nodes 2 I + {0, 1}^3. A
 /// fixed face between two coarse planes thus moves by one fine cell, and a single fixed node stays a single node. (Only
 /// coincident nodes: the coarse body would come loose. All nodes nearby: a fixed point would grow into a clamped
-/// block.)
-FixedNodes coarsened(const FixedNodes& fine);
+/// block.) A coarse node beyond the body's last one acts on that one alone and is fixed with it: left free, it would
+/// release on the coarse level what a wall holds. `owned`: nodes of the rank on both levels.
+FixedNodes coarsened(const FixedNodes& fine, const Int3& owned, const Int3& coarse_owned);
 
 /// Sets the fixed components to zero.
 void clear_fixed(const FixedNodes& fixed, RowField<float>& field);

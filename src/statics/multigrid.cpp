@@ -116,7 +116,8 @@ Hierarchy::Hierarchy(const LevelGrid& grid, int components, const RowField<float
     const LevelGrid coarse = fine.coarsened();
     merged = coarsened(*last, coarse);
     last = &merged;
-    levels_.push_back(std::make_unique<Level>(coarse, components, merged, coarsened(levels_.back()->fixed())));
+    FixedNodes held = coarsened(levels_.back()->fixed(), fine.owned(), coarse.owned());
+    levels_.push_back(std::make_unique<Level>(coarse, components, merged, std::move(held)));
   }
   if (options_.serial) {
     coarse_ = std::make_unique<CoarseSolver>(*levels_.back(), options_.shift);
