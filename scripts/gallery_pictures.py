@@ -49,18 +49,19 @@ class Maker:
         subprocess.run(command + [part for o in overrides for part in ("--set", o)], check=True)
         return out
 
-    def bodies(self, example, *views, keys=(), overrides=(), page=HALF):
-        """The report's views of a run, one for each list of controls, with the camera turned by arrow keys."""
+    def bodies(self, example, *views, look="oblique", keys=(), overrides=(), page=HALF):
+        """The report's views of a run, one for each list of controls, seen along an axis, with some keys pressed."""
         out = self.run(example, *overrides)
         subprocess.run([self.build / "koshi", "report", out], check=True, stdout=subprocess.DEVNULL)
-        return [self.view(out, controls, keys, page) for controls in views]
+        return [self.view(out, controls, look, keys, page) for controls in views]
 
     def body(self, example, controls, **options):
         return fitted(*self.bodies(example, controls, page=WHOLE, **options))
 
     @staticmethod
-    def view(out, controls, keys, page):
-        options = [part for c in controls for part in ("--select", c)] + [part for k in keys for part in ("--press", k)]
+    def view(out, controls, look, keys, page):
+        options = [part for c in controls for part in ("--select", c)] + ["--look", look]
+        options += [part for key in keys for part in ("--press", key)]
         subprocess.run(["node", ROOT / "report/scripts/screenshot.mjs", out / "report.html", out / "body.png", "--only", ".stage",
                         *page, *options], check=True)
         return Image.open(out / "body.png").convert("RGB")
@@ -216,9 +217,33 @@ def beam_vibration(maker):
     return drawn(fig)
 
 
+def tunnel(maker):
+    """Beside the stress around the tunnel, Kirsch's along its horizontal axis."""
+    plain = ["field=stress:zz", "outline=false", "lines=none", "scale-number=100"]
+    body, = maker.bodies("10_tunnel", plain, look="y", keys=["+"] * 7)
+    simulation = maker.simulation("10_tunnel")
+    simulation.run()
+    x = simulation.coordinates[0]
+    distance, stress = 0.5 * (x[1:] + x[:-1]) - 30, simulation.field("stress")[:, 120, 0, :]
+    rock = (distance > 3) & (distance < 15)
+    fig, ax = figure(width=WIDTH // 2 - 8)
+    ax.plot(distance[rock], -1e-6 * stress[2][rock], "o", color=BLUE, markersize=5, label="vertical, $-σ_{zz}$")
+    ax.plot(distance[rock], -1e-6 * stress[0][rock], "s", color=RED, markersize=5, label="lateral, $-σ_{xx}$")
+    r = np.linspace(3, 15, 200)
+    q, p, k = (3 / r) ** 2, 5, 1 / 3
+    ax.plot(r, p / 2 * ((1 + k) * (1 + q) + (1 - k) * (1 + 3 * q**2)), label="Kirsch", **THEORY)
+    ax.plot(r, p / 2 * ((1 + k) * (1 - q) - (1 - k) * (1 - 4 * q + 3 * q**2)), **THEORY)
+    ax.set(xlabel="distance from the axis [m]", ylabel="stress beside the tunnel [MPa]", xlim=(0, 15), ylim=(0, 15))
+    ax.axvspan(0, 3, color="#eef1f5", zorder=0)
+    ax.text(0.4, 0.4, "tunnel", color="#5a6675")
+    ax.legend(loc="upper right")
+    return side_by_side(body, drawn(fig))
+
+
 PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
             "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
-            "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration}
+            "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
+            "10_tunnel": tunnel}
 
 
 def main():
