@@ -98,7 +98,7 @@ void add_calibrate_command(CLI::App& app) {
   command->add_option("--springs", options->springs, "shared or plain")->capture_default_str();
   command->add_option(
       "--calibration", options->calibration,
-      "bending-exact, isotropic or paper; unset: bending-exact for shared Cube-III, isotropic for shared "
+      "bending-exact, beam-exact, isotropic or paper; unset: bending-exact for shared Cube-III, isotropic for shared "
       "Cube-I and -II, paper for plain springs");
   command->add_option("--kinematics", options->kinematics, "rotational or least-squares")->capture_default_str();
   command

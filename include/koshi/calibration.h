@@ -99,9 +99,14 @@ Springs isotropic_springs(lattice::CellType cell, const Elastic& elastic, double
 /// Springs of Cube-III that also bend and twist with the continuum's energy; theory.md, section 8.
 Springs bending_exact_springs(const Elastic& elastic, double d, Kinematics kinematics);
 
-/// One of the two closed forms; d [m] the spacing.
-/// Errors: InputError for bending-exact springs on a cell other than Cube-III, for E <= 0, nu outside (-1, 1/2) and for
-/// the calibration "paper", which needs the bonds of a body (`calibrate`).
+/// The same where positive springs can meet every condition of section 8. Above nu = 0.313 with node rotations they
+/// cannot: bending_exact_springs then keep plates exact and twist too stiffly, these keep torsion and the bending of
+/// beams exact and bend plates too softly.
+Springs beam_exact_springs(const Elastic& elastic, double d, Kinematics kinematics);
+
+/// One of the three closed forms; d [m] the spacing.
+/// Errors: InputError for bending-exact and beam-exact springs on a cell other than Cube-III, for E <= 0, nu outside
+/// (-1, 1/2) and for the calibration "paper", which needs the bonds of a body (`calibrate`).
 Springs springs_for(lattice::CellType cell, Calibration calibration, Kinematics kinematics, const Elastic& elastic,
                     double d);
 

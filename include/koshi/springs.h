@@ -15,8 +15,8 @@ enum class Kinematics { rotational, least_squares };
 /// Springs belong to cells, which share their bonds, or every bond carries its full stiffness (theory, section 6).
 enum class Sharing { shared, plain };
 
-/// How E and nu become springs: theory, sections 8, 7 and 3.
-enum class Calibration { bending_exact, isotropic, paper };
+/// How E and nu become springs: theory, sections 8 (two of them), 7 and 3.
+enum class Calibration { bending_exact, beam_exact, isotropic, paper };
 
 /// Isotropic elastic solid; E in Pa (> 0), -1 < nu < 1/2, density in kg/m^3 (> 0).
 struct Elastic {

@@ -31,7 +31,7 @@ class Lattice:
     """default "cube-III" """
     springs: Literal["shared", "plain"] | None = None
     """springs belong to cells (default), or every bond carries its full stiffness"""
-    calibration: Literal["bending-exact", "isotropic", "paper"] | None = None
+    calibration: Literal["bending-exact", "beam-exact", "isotropic", "paper"] | None = None
     """default: bending-exact for shared Cube-III, isotropic for shared Cube-I and -II, paper for plain springs"""
     kinematics: Literal["rotational", "least-squares"] | None = None
     """three rotations per node (default), or the rotation fitted to each cell"""

@@ -1,5 +1,7 @@
 #include "driver/calibrate.h"
 
+#include <fmt/format.h>
+
 #include "koshi/error.h"
 #include "model/regions.h"
 
@@ -28,14 +30,31 @@ Bonds bonds_of(const model::LatticeDefinition& lattice, const std::optional<Int3
   return {material::box_bonds(lattice.cell, lattice.springs, *cells, d, springs), material::box_volume(*cells, d)};
 }
 
+/// Above nu = 0.302 springs with node rotations cannot meet all conditions of theory.md, section 8.
+std::string note(const Calibrated& found) {
+  const mechanics::EnergyRatios& energy = found.check.energy;
+  if (found.lattice.calibration == material::Calibration::bending_exact && energy.torsion > 1.001)
+    return fmt::format(
+        "bars a few cells thick twist too stiffly ({:+.0f} % for a cell); calibration \"beam-exact\" twists exactly, "
+        "kinematics \"least-squares\" bends and twists exactly",
+        100 * (energy.torsion - 1));
+  if (found.lattice.calibration == material::Calibration::beam_exact && energy.bending < 0.999)
+    return fmt::format(
+        "plates a few cells thick bend too softly ({:+.0f} % for a cell); calibration \"bending-exact\" bends them "
+        "exactly, kinematics \"least-squares\" bends and twists exactly",
+        100 * (energy.bending - 1));
+  return {};
+}
+
 Calibrated examine_body(const model::LatticeDefinition& lattice, const material::Elastic& elastic,
                         const std::optional<Int3>& cells, const material::Springs& springs) {
-  Calibrated found{lattice, elastic, cells, 0, springs, {}, {}, {}};
+  Calibrated found{lattice, elastic, cells, 0, springs, {}, {}, {}, {}};
   const Bonds bonds = bonds_of(lattice, cells, springs);
   for (const material::BondGroup& group : bonds.groups) found.bonds += group.count;
   found.C = material::lattice_tensor(bonds.groups, bonds.volume, springs.kappa);
   found.constants = material::engineering_constants(found.C);
   found.check = mechanics::self_check(springs, lattice.spacing, lattice.kinematics, lattice.springs, elastic);
+  found.note = note(found);
   return found;
 }
 

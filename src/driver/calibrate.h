@@ -22,6 +22,7 @@ struct Calibrated {
   material::ElasticTensor C;                                ///< of the body or of the bulk [Pa]
   std::optional<material::EngineeringConstants> constants;  ///< of C; none when C is singular
   mechanics::SelfCheck check;                               ///< of the springs inside the bulk
+  std::string note;  ///< what these springs trade for what, and the choice that does not; empty: nothing to say
 };
 
 /// Springs for a material with density > 0, in a box of the given size [m] or, without one, in the unit cell inside the

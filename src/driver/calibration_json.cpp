@@ -44,6 +44,7 @@ json self_check(const mechanics::SelfCheck& check) {
            {{"bending", check.energy.bending},
             {"dome_bending", check.energy.dome_bending},
             {"saddle_bending", check.energy.saddle_bending},
+            {"beam_bending", check.energy.beam_bending},
             {"torsion", check.energy.torsion}}},
           {"cell",
            {{"least_eigenvalue", check.cell.least},
@@ -81,6 +82,7 @@ json calibration_json(const Calibrated& c) {
       {"wave_speeds", {{"p", c.elastic.p_wave_speed()}, {"s", c.elastic.s_wave_speed()}}},
       {"time_step", {{"d_over_p", c.lattice.spacing / c.elastic.p_wave_speed()}, {"bulk_limit", c.check.bulk_step}}},
       {"self_check", self_check(c.check)},
+      {"note", c.note},
       {"dispersion", dispersion}};
 }
 

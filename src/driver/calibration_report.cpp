@@ -110,6 +110,7 @@ void write_check(const Calibrated& c, Out out) {
   fmt::format_to(out, "  C against the elastic solid    {:.2g} of its largest entry\n", check.C_error);
   fmt::format_to(out, "  energy of a bent cell          {:.6f} of the solid's (dome {:.6f}, saddle {:.6f})\n",
                  check.energy.bending, check.energy.dome_bending, check.energy.saddle_bending);
+  fmt::format_to(out, "  energy of a bent beam          {:.6f} of the solid's\n", check.energy.beam_bending);
   fmt::format_to(out, "  energy of a twisted cell       {:.6f} of the solid's\n", check.energy.torsion);
   fmt::format_to(out, "  softest motion of a cell       {:.4g} mu d; {} without energy besides the six rigid ones\n",
                  check.cell.least < 0 ? check.cell.least : check.cell.smallest_nonzero,
@@ -118,6 +119,7 @@ void write_check(const Calibrated& c, Out out) {
                  check.zone.vectors);
   fmt::format_to(out, "  verdict                        {}\n", name(check.verdict));
   if (!check.reason.empty()) fmt::format_to(out, "    {}\n    remedy: {}\n", check.reason, check.remedy);
+  if (!c.note.empty()) fmt::format_to(out, "  note: {}\n", c.note);
 }
 
 }  // namespace

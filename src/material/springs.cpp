@@ -1,5 +1,6 @@
 // Closed forms of theory.md, sections 7 and 8.
 #include <algorithm>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -23,10 +24,9 @@ Springs scaled(const Springs& unit, double mu, double d) {
 /// lambda / mu without the loss of digits of (lambda / E) / (mu / E).
 double lambda_over_mu(double nu) { return 2 * nu / (1 - 2 * nu); }
 
-Springs bending_exact_rotational(double nu) {
+Springs bending_exact_rotational(double nu, double floor = 0.03) {
   // Uniform strain (isotropy, C1111, C1122, C1212), bending, its Poisson coupling and torsion: seven conditions for
   // seven constants. From nu = 0.302 on, the floor holds the node rotations and torsion gives way.
-  constexpr double floor = 0.03;
   const double c = 2 * nu / (3 * (1 - nu));
   const double t = nu <= 0 ? 2.0 / 9 * (1 - 2 * nu) / (1 - nu) : std::max(2.0 / 9 * (1 - 3 * nu) / (1 - nu), floor);
   Springs unit;
@@ -38,6 +38,26 @@ Springs bending_exact_rotational(double nu) {
   unit.kt[2] = 0.5 - 1 / (6 * (1 - nu)) - t / 2;
   unit.kn[2] = 0.75 * (1 - unit.kt[0] / 2 - unit.kn[1] - unit.kt[1] - 2.0 / 3 * unit.kt[2]);
   unit.kappa = lambda_over_mu(nu) - c - 4.0 / 3 * (unit.kn[2] - unit.kt[2]);
+  return unit;
+}
+
+Springs beam_exact_rotational(double nu) {
+  // Node rotations need kt >= f in edges and face diagonals. Where torsion then leaves less coupling
+  // C = kn2 - kt2 than a plate has, a beam still bends exactly if B - C^2 / B = 2/3 (1 + nu), B = kn1 + kn2 + kt2: its
+  // section curls freely, by -C / B of the curvature.
+  constexpr double f = 0.02;
+  if (nu <= 0 || 2.0 / 9 * (1 - 3 * nu) / (1 - nu) >= f) return bending_exact_rotational(nu, f);
+  Springs unit;
+  unit.kt[0] = unit.kt[1] = f;
+  unit.kn[1] = 1.0 / 3 - f / 2;
+  const double beam = 2.0 / 3 * (1 + nu), C = unit.kn[1] - f;
+  const double B = (beam + std::sqrt(beam * beam + 4 * C * C)) / 2;
+  unit.kn[0] = B - unit.kn[1] - f;
+  // Uniform strain: isotropy gives kn3 - kt3, C1212 then kt3, C1122 kappa.
+  const double difference = 3.0 / 8 * (unit.kn[0] - unit.kt[0] - C);
+  unit.kt[2] = (1 - unit.kt[0] / 2 - unit.kn[1] - unit.kt[1]) / 2 - 2.0 / 3 * difference;
+  unit.kn[2] = unit.kt[2] + difference;
+  unit.kappa = lambda_over_mu(nu) - C - 4.0 / 3 * difference;
   return unit;
 }
 
@@ -104,6 +124,14 @@ Springs bending_exact_springs(const Elastic& elastic, double d, Kinematics kinem
   return scaled(unit, elastic.mu(), d);
 }
 
+Springs beam_exact_springs(const Elastic& elastic, double d, Kinematics kinematics) {
+  // The fit needs no floor: its bending-exact springs meet every condition.
+  const double nu = elastic.poissons_ratio;
+  const Springs unit =
+      kinematics == Kinematics::rotational ? beam_exact_rotational(nu) : bending_exact_least_squares(nu);
+  return scaled(unit, elastic.mu(), d);
+}
+
 Springs springs_for(lattice::CellType cell, Calibration calibration, Kinematics kinematics, const Elastic& elastic,
                     double d) {
   require_elastic_solid(elastic);
@@ -112,10 +140,11 @@ Springs springs_for(lattice::CellType cell, Calibration calibration, Kinematics 
     throw InputError("calibration \"paper\" needs the bonds of a body; without one use \"isotropic\"");
   if (cell != lattice::CellType::cube_iii)
     throw InputError(
-        fmt::format("calibration \"bending-exact\" needs the face and body diagonals of cell \"cube-III\", "
+        fmt::format("calibration \"{}\" needs the face and body diagonals of cell \"cube-III\", "
                     "not \"{}\"; use calibration \"isotropic\"",
-                    lattice::name(cell)));
-  return bending_exact_springs(elastic, d, kinematics);
+                    calibration == Calibration::beam_exact ? "beam-exact" : "bending-exact", lattice::name(cell)));
+  return calibration == Calibration::beam_exact ? beam_exact_springs(elastic, d, kinematics)
+                                                : bending_exact_springs(elastic, d, kinematics);
 }
 
 }  // namespace koshi::material

@@ -95,8 +95,10 @@ EnergyRatios energy_ratios(const Springs& springs, double d, Kinematics kinemati
   // Continuum densities of theory.md, section 8, times d^2 (curvature squared times area) times the volume d^3.
   const double nu = elastic.poissons_ratio, d5 = std::pow(d, 5);
   const double plate = elastic.youngs_modulus / (1 - nu * nu) / 24 * d5;
-  return {energy(1, 0, 0) / plate, energy(1, 1, 0) / (plate * 2 * (1 + nu)), energy(1, -1, 0) / (plate * 2 * (1 - nu)),
-          energy(0, 0, 1) / (elastic.mu() / 12 * d5)};
+  // energy(a, b) = B (a^2 + b^2) + 2 C a b.
+  const double B = energy(1, 0, 0), dome = energy(1, 1, 0), C = dome / 2 - B;
+  return {B / plate, dome / (plate * 2 * (1 + nu)), energy(1, -1, 0) / (plate * 2 * (1 - nu)),
+          B > 0 ? (B - C * C / B) / (plate * (1 - nu * nu)) : 0, energy(0, 0, 1) / (elastic.mu() / 12 * d5)};
 }
 
 CellModes cell_modes(const Springs& springs, double d, Kinematics kinematics, material::Sharing sharing, double mu) {

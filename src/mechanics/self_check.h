@@ -19,6 +19,7 @@ struct EnergyRatios {
   double bending = 0;  ///< u = ((a y^2 + b z^2)/2, -a x y, -b x z) with b = 0: E/(1 - nu^2)/24 (a^2 + b^2 + 2 nu a b)
   double dome_bending = 0;    ///< the same with b = a
   double saddle_bending = 0;  ///< the same with b = -a; equal to dome_bending where the Poisson coupling is exact
+  double beam_bending = 0;    ///< the least over b: a beam, whose section curls freely; E/24 a^2
   double torsion = 0;         ///< u = (0, -z x, y x): mu/12
 };
 

@@ -17,12 +17,12 @@ void check_lattice(const Checker& check) {
   check.positive("lattice.spacing", lattice.spacing, "m");
 
   const material::Calibration calibration = check.definition.calibration();
-  if (calibration == material::Calibration::bending_exact && lattice.cell != lattice::CellType::cube_iii)
-    check.fail(
-        "lattice.calibration",
-        fmt::format("calibration \"bending-exact\" needs cell \"cube-III\", not \"{}\"; take \"isotropic\", or the "
-                    "cell \"cube-III\"",
-                    name(lattice.cell)));
+  const bool any_cell = calibration == material::Calibration::isotropic || calibration == material::Calibration::paper;
+  if (!any_cell && lattice.cell != lattice::CellType::cube_iii)
+    check.fail("lattice.calibration",
+               fmt::format("calibration \"{}\" needs cell \"cube-III\", not \"{}\"; take \"isotropic\", or the cell "
+                           "\"cube-III\"",
+                           choice_name(calibration), name(lattice.cell)));
 
   if (calibration != material::Calibration::paper) {
     if (!lattice.equations.empty())

@@ -33,6 +33,7 @@ inline constexpr auto choices<material::Sharing> = std::to_array<Choice<material
 template <>
 inline constexpr auto choices<material::Calibration> = std::to_array<Choice<material::Calibration>>({
     {"bending-exact", material::Calibration::bending_exact},
+    {"beam-exact", material::Calibration::beam_exact},
     {"isotropic", material::Calibration::isotropic},
     {"paper", material::Calibration::paper},
 });

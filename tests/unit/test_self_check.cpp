@@ -49,6 +49,56 @@ TEST(SelfCheck, BendingExactSpringsAreExact) {
   EXPECT_EQ(checked, 14);
 }
 
+// Beam-exact: torsion and the bending of a beam exact for every nu, uniform strain and stability besides. Below the
+// floor f = 0.02, at nu = (2 - 9 f) / (6 - 9 f) = 0.31271, they are bending-exact; there they begin without a jump.
+TEST(SelfCheck, BeamExactSpringsBendBeamsAndTwist) {
+  int checked = 0, apart = 0;
+  for (const double nu : {-0.9, -0.3, 0.0, 0.18, 0.3, 0.305, 0.3127, 0.3128, 0.35, 0.45, 0.49, 0.499})
+    for (const Kinematics kinematics : {Kinematics::rotational, Kinematics::least_squares}) {
+      if (kinematics == Kinematics::least_squares && nu < -0.2) continue;
+      const auto springs = material::beam_exact_springs(rock(nu), d, kinematics);
+      const SelfCheck found = check(springs, kinematics, nu);
+      EXPECT_EQ(found.verdict, Verdict::ok) << nu;
+      EXPECT_LT(found.C_error, 1e-13) << nu;
+      EXPECT_NEAR(found.energy.beam_bending, 1, 1e-11) << nu;
+      EXPECT_NEAR(found.energy.torsion, 1, 1e-11) << nu;
+      EXPECT_GT(found.cell.smallest_nonzero, 0.002) << nu;
+      const bool plates = kinematics == Kinematics::least_squares || nu < 0.31271;
+      if (plates)
+        EXPECT_NEAR(found.energy.bending, 1, 1e-11) << nu;
+      else
+        EXPECT_LT(found.energy.bending, 1 - 1e-5) << nu;
+      apart += !plates;
+      if (kinematics == Kinematics::rotational && nu >= 0)
+        for (int family = 0; family < 3; ++family) {
+          EXPECT_GE(springs.kt[family], 0.0199 * rock(nu).mu() * d) << nu;
+          EXPECT_GE(springs.kn[family], 0.0199 * rock(nu).mu() * d) << nu;
+        }
+      ++checked;
+    }
+  EXPECT_EQ(checked, 22);
+  EXPECT_EQ(apart, 5);
+
+  const auto below = material::beam_exact_springs(rock(0.31271), d, Kinematics::rotational);
+  const auto above = material::beam_exact_springs(rock(0.31272), d, Kinematics::rotational);
+  const double scale = rock(0.31).mu() * d;
+  for (int family = 0; family < 3; ++family) {
+    EXPECT_NEAR(above.kn[family] / scale, below.kn[family] / scale, 1e-4);
+    EXPECT_NEAR(above.kt[family] / scale, below.kt[family] / scale, 1e-4);
+  }
+}
+
+// Plates give way at nu = 0.45: with C = 1/3 - 3/2 f = 0.3033 and B = (1.45 + sqrt(1.45^2 + 9 C^2)) / 3 = 1.05397
+// and B_0 = 2 / (3 0.55): a cylinder keeps B / B_0 = 0.86952 of its energy, a dome (B + C) / (1.45 B_0) = 0.77226, a
+// saddle (B - C) / (0.55 B_0) = 1.12595.
+TEST(SelfCheck, BeamExactPlatesAreSoft) {
+  const auto springs = material::beam_exact_springs(rock(0.45), d, Kinematics::rotational);
+  const EnergyRatios ratios = energy_ratios(springs, d, Kinematics::rotational, rock(0.45));
+  EXPECT_NEAR(ratios.bending, 0.86952, 1e-5);
+  EXPECT_NEAR(ratios.dome_bending, 0.77226, 1e-5);
+  EXPECT_NEAR(ratios.saddle_bending, 1.12595, 1e-5);
+}
+
 // Cube-I, nu = 0, kn = kt = 2 mu d, d = 1, edges 1/4. Least-squares: the fields have no mean gradient, so r is the
 // plain difference. Bending u_y = -x y: bonds along x have |r| = 1/2 across, those along y |r| = 1/2 along: 8 bonds,
 // 1/2 x 2/4 x 8 x 1/4 = 1/2 against E/24 = 1/12: 6. Torsion u = (0, -z x, y x): bonds along x r^2 = 1/2, along y and z
