@@ -4,6 +4,7 @@
 
 #include "driver/calibrate.h"
 #include "driver/simulation.h"
+#include "driver/warnings.h"
 #include "koshi/input.h"
 #include "koshi/run.h"
 #include "mechanics/stable_step.h"
@@ -47,6 +48,7 @@ std::string explicit_part(const model::Model& model) {
 
 std::string check(const model::Definition& definition, const Communicator& communicator) {
   const model::Model model = load_model(definition, communicator);
+  const std::vector<std::string> found = warnings(model);
   std::string text = "# resolved input\n" + io::resolved_toml(definition) + "\n# what it means\n";
   const Int3& cells = model.lattice.grid.cells;
   text += fmt::format("cells         {} x {} x {}, {} solid\nnodes         {}, {} unknowns\n", cells[0], cells[1],
@@ -54,6 +56,7 @@ std::string check(const model::Definition& definition, const Communicator& commu
   text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB\n", model.motion_count,
                       model::predicted_memory(model.definition, communicator.size()) / 1e9);
   if (definition.analysis.type != model::AnalysisDefinition::Type::statics) text += explicit_part(model);
+  for (const std::string& warning : found) text += "warning       " + warning + "\n";
   for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
     text += fmt::format("\n# material {}\n", definition.materials[m - 1].name) +
             calibration_report(examine(definition.lattice, model.materials[m], model.lattice.springs[m]));

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/collective.h"
+#include "base/log.h"
 #include "base/memory.h"
 #include "base/progress.h"
 #include "driver/checkpoints.h"
@@ -27,7 +28,9 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   const Communicator& communicator = model.communicator;
   // Everything that can be wrong with the input is found before the output directory is made; the search for the stable
   // step comes before the state takes its memory, since it needs as much.
-  simulation.prepare();
+  const std::vector<std::string>& warnings = simulation.prepare();
+  if (!options.quiet && communicator.is_root())
+    for (const std::string& warning : warnings) log_warning(warning);
   model::State& state = simulation.state();
   Checkpoints checkpoints(model, options.directory);
   std::optional<double> restart_time;

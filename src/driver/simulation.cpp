@@ -8,6 +8,7 @@
 
 #include "base/collective.h"
 #include "driver/schedule.h"
+#include "driver/warnings.h"
 #include "koshi/dynamics.h"
 #include "koshi/input.h"
 
@@ -48,11 +49,13 @@ model::State& Simulation::state() {
   return *state_;
 }
 
-void Simulation::prepare() {
+const std::vector<std::string>& Simulation::prepare() {
+  if (warnings_) return *warnings_;
+  std::vector<std::string> found = warnings(*model_);
   const Type type = model_->definition.analysis.type;
-  if (type == Type::statics) return;
   if (type == Type::quasi_static) check_support();
-  time_step();
+  if (type != Type::statics) time_step();
+  return warnings_.emplace(std::move(found));
 }
 
 Outcome Simulation::run(const Observer& observer, const std::vector<std::string>& petsc_options) {

@@ -48,9 +48,10 @@ class Simulation {
  public:
   Simulation(const model::Definition& definition, const Communicator& communicator);
 
-  /// Finds what only the built model shows to be wrong (collective): throws InputError for a time step that is not
-  /// stable or a quasi-static body without support. `run` does it too; before files are made is the time for it.
-  void prepare();
+  /// Finds what only the built model shows to be wrong (collective): throws InputError for springs that are unstable, a
+  /// time step that is not stable or a quasi-static body without support. Returns what the user should look at
+  /// (driver/warnings.h). `run` does it too; before files are made is the time for it.
+  const std::vector<std::string>& prepare();
 
   /// Runs the analysis of the definition from the present state to its end. Throws InputError as `prepare`, RunError
   /// when the run diverges or does not converge.
@@ -85,6 +86,7 @@ class Simulation {
   std::unique_ptr<model::Model> model_;
   std::unique_ptr<mechanics::ForceKernel<double>> kernel_;
   std::unique_ptr<mechanics::Meter> meter_;
+  std::optional<std::vector<std::string>> warnings_;  ///< set once prepared
   std::unique_ptr<model::State> state_;
   std::optional<mechanics::StableStep> stable_;        // once an explicit step was asked for
   std::unique_ptr<dynamics::ExplicitSolver> stepper_;  // of `step`; none during and after a run

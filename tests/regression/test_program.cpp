@@ -104,6 +104,11 @@ TEST_F(Program, RefusesWrongInputBeforeItMakesTheOutputDirectory) {
        "[[boundary]], or use type = \"dynamic\"\n"},
       {"run case.toml --out new --set analysis.time_step=1",
        "--set analysis.time_step=1: error: time step 1 s is above the stable limit "},
+      {"run case.toml --out new --set 'lattice.kinematics=\"least-squares\"' --set material.rock.poissons_ratio=-0.5",
+       "case.toml:2:1: error: the springs of material \"rock\" (nu = -0.5): unstable: a single cell has a negative "
+       "eigenvalue"},
+      {"check case.toml --set 'lattice.kinematics=\"least-squares\"' --set material.rock.poissons_ratio=-0.5",
+       "case.toml:2:1: error: the springs of material \"rock\" (nu = -0.5): unstable: "},
       {"check case.toml --set 'body.material=\"void\"'", "case.toml:4:1: error: the body has no solid cell"},
       // Places.
       {"run case.toml --out /proc/new/new", "error: cannot create output directory /proc/new/new: "},
@@ -132,7 +137,7 @@ TEST_F(Program, RefusesWrongInputBeforeItMakesTheOutputDirectory) {
     EXPECT_FALSE(fs::exists(directory_ / "new")) << wrong.arguments;
     ++checked;
   }
-  EXPECT_EQ(checked, 21);
+  EXPECT_EQ(checked, 23);
   EXPECT_EQ(test::read_file(directory_ / "foreign/thesis.txt"), "precious");
   EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "foreign"), fs::directory_iterator()), 1);
 }

@@ -1,0 +1,91 @@
+#include "driver/warnings.h"
+
+#include <algorithm>
+#include <array>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "koshi/error.h"
+#include "mechanics/self_check.h"
+#include "model/choices.h"
+
+namespace koshi::driver {
+namespace {
+
+using model::BoundaryDefinition;
+using model::Definition;
+
+void check_springs(const model::Model& model, std::vector<std::string>& warnings) {
+  const Definition& definition = model.definition;
+  const model::LatticeDefinition& lattice = definition.lattice;
+  // Only Poisson's ratio matters: E and density scale all motions alike.
+  std::set<double> seen;
+  for (std::size_t m = 1; m < model.lattice.springs.size(); ++m) {
+    const material::Elastic& elastic = model.materials[m];
+    if (!seen.insert(elastic.poissons_ratio).second) continue;
+    const mechanics::SelfCheck check =
+        mechanics::self_check(model.lattice.springs[m], lattice.spacing, lattice.kinematics, lattice.springs, elastic);
+    if (check.verdict == mechanics::Verdict::ok) continue;
+    const std::string text =
+        fmt::format("the springs of material \"{}\" (nu = {:g}): {}; {}", definition.materials[m - 1].name,
+                    elastic.poissons_ratio, check.reason, check.remedy);
+    if (check.verdict == mechanics::Verdict::refuse)
+      throw InputError(definition.places.find("lattice.calibration"), text);
+    // Motion does not excite loose rotations; equilibrium has to determine them.
+    if (definition.analysis.type == model::AnalysisDefinition::Type::statics) warnings.push_back(text);
+  }
+}
+
+/// Components a boundary prescribes.
+std::array<bool, 6> prescribed(const BoundaryDefinition& boundary) {
+  std::array<bool, 6> components = boundary.fix;
+  for (std::size_t c = 0; c < 6; ++c)
+    if (boundary.displacement[c] || boundary.velocity[c]) components[c] = true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (boundary.twist[axis])
+      for (const std::size_t c : {(axis + 1) % 3, (axis + 2) % 3, axis + 3}) components[c] = true;
+  return components;
+}
+
+void check_platens(const Definition& definition, std::vector<std::string>& warnings) {
+  // Plain springs are the paper's, whose surfaces are not exact in any case; edges alone carry no such moment.
+  const model::LatticeDefinition& lattice = definition.lattice;
+  if (lattice.kinematics != material::Kinematics::rotational || lattice.springs != material::Sharing::shared ||
+      lattice.cell == lattice::CellType::cube_i)
+    return;
+  for (const auto& [face_name, face] : model::choices<model::Face>) {
+    const std::size_t across = static_cast<std::size_t>(face) / 2;
+    const std::array<std::size_t, 2> along{(across + 1) % 3, (across + 2) % 3};
+    // A platen without edges turns nowhere.
+    if (definition.body.periodic[along[0]] && definition.body.periodic[along[1]]) continue;
+    std::array<bool, 6> held{};
+    const BoundaryDefinition* platen = nullptr;
+    for (const BoundaryDefinition& boundary : definition.boundaries) {
+      if (boundary.selection.face != face) continue;
+      const std::array<bool, 6> components = prescribed(boundary);
+      if (components[across] && platen == nullptr) platen = &boundary;
+      for (std::size_t c = 0; c < 6; ++c) held[c] = held[c] || components[c];
+    }
+    const bool slides = !held[along[0]] && !held[along[1]];
+    if (platen == nullptr || !slides || (held[3 + along[0]] && held[3 + along[1]])) continue;
+    std::array<std::string_view, 2> missing{model::component_names[3 + along[0]], model::component_names[3 + along[1]]};
+    std::sort(missing.begin(), missing.end());
+    warnings.push_back(fmt::format(
+        "boundary \"{}\" holds {} of face \"{}\" and lets it slide, but leaves its nodes free to turn: along the edges "
+        "they will, and the body comes out too soft (a cube of 4 cells a side by 11 %, of 8 by 3 %); a smooth platen "
+        "and a plane of symmetry turn no node: add \"{}\", \"{}\" to fix",
+        platen->name, model::component_names[across], face_name, missing[0], missing[1]));
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const model::Model& model) {
+  std::vector<std::string> warnings;
+  check_springs(model, warnings);
+  check_platens(model.definition, warnings);
+  return warnings;
+}
+
+}  // namespace koshi::driver
