@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Redoes the identities of chapters 3, 6, 7 and 8 symbolically, from the bond law (2.1), (2.2) and nothing else.
+"""Redoes the identities of chapters 3, 6, 7, 8 and 11 symbolically, from the bond law (2.1), (2.2) and nothing else.
 
 The cell has side 1 and its corners at x = s / 2; a family's bonds count with the share the cell owns of them.
 """
@@ -200,9 +200,102 @@ def bending_and_torsion():
     same(stored(bend, "fit").subs(fitted), bent)
     same(stored(twist, "fit").subs(fitted), twisted)
 
+    # Beam-exact, shear stiffnesses on the floor f: uniform strain, torsion, and bending about one axis with the
+    # curvature about the other free.
+    C = R(1, 3) - R(3, 2) * f
+    B = (R(2, 3) * (1 + nu) + sp.sqrt(R(4, 9) * (1 + nu) ** 2 + 4 * C**2)) / 2
+    normal2 = C + f
+    difference = R(3, 8) * (B - normal2 - 2 * f - C)
+    shear3 = (1 - R(3, 2) * f - normal2) / 2 - R(2, 3) * difference
+    beam = dict(zip(springs, (B - normal2 - f, normal2, shear3 + difference, f, f, shear3,
+                              LAMBDA - C - R(4, 3) * difference)))
+    meets_uniform_strain(beam)
+    same(stored(twist, "rotational").subs(beam), twisted)
+    curled = stored(bend, "rotational").subs(beam).subs(b, -C / B * a)
+    same(curled, (bent * (1 - nu**2)).subs(b, 0))
+    same(sp.diff(stored(bend, "rotational").subs(beam), b).subs(b, -C / B * a), 0)
+
+
+WAVES = {"P100": ((1, 0, 0), (1, 0, 0)), "P110": ((1, 1, 0), (1, 1, 0)), "P111": ((1, 1, 1), (1, 1, 1)),
+         "S100": ((1, 0, 0), (0, 1, 0)), "S110z": ((1, 1, 0), (0, 0, 1)), "S110": ((1, 1, 0), (1, -1, 0)),
+         "S111": ((1, 1, 1), (1, -1, 0))}  # direction and polarisation, in whole numbers
+
+
+def wave_terms(direction, polarisation, kinematics):
+    """(11.1): twice the energy per cell of the wave, over u^2, is M k^2 - G k^4 + ...; returns M and G."""
+    n, p, h = sp.Matrix(direction), sp.Matrix(polarisation), sp.Symbol("h")
+    angle = [h * n.dot(x) for x in CORNERS]
+    cosine = [1 - z**2 / 2 + z**4 / 24 for z in angle]
+    sine = [z - z**3 / 6 for z in angle]
+    total = 0
+    for u, turned in ((cosine, [-z for z in sine]), (sine, cosine)):  # exp(i angle): real and imaginary part
+        u = [p * z for z in u]
+        w = [h * n.cross(p) / 2 * z for z in turned]
+        total += 2 * energy(u, w if kinematics == "rotational" else [curl_half(gradient(u))] * 8)
+    total = sp.Poly(sp.expand(total), h)
+    square, length = p.dot(p), n.dot(n)
+    return total.coeff_monomial(h**2) / (square * length), -total.coeff_monomial(h**4) / (square * length**2)
+
+
+def waves():
+    """Chapter 11: the table (11.3), and the closed forms (11.4) to (11.6)."""
+    normal = {"P100": (R(1, 12), R(1, 6), R(1, 9)), "P110": (R(1, 48), R(17, 48), R(4, 9)),
+              "P111": (R(1, 108), R(8, 27), R(61, 81)), "S100": (0, R(1, 12), R(1, 9)),
+              "S110z": (0, R(1, 24), R(2, 9)), "S110": (R(1, 48), R(1, 48), 0), "S111": (R(1, 108), R(2, 27), R(1, 81))}
+    volumetric = {"P100": R(1, 12), "P110": R(1, 6), "P111": R(7, 36)}
+    shear = {
+        "rotational": {"P100": (0, R(1, 6), R(2, 9)), "P110": (R(1, 48), R(1, 16), R(2, 9)),
+                       "P111": (R(1, 54), R(4, 27), R(2, 81)), "S100": (-R(1, 48), -R(1, 24), R(1, 18)),
+                       "S110z": (-R(1, 96), -R(1, 48), -R(5, 36)), "S110": (0, -R(1, 16), -R(1, 6)),
+                       "S111": (R(1, 216), -R(11, 108), -R(10, 81))},
+        "fit": {"P100": (0, R(1, 6), R(2, 9)), "P110": (R(1, 48), R(1, 16), R(2, 9)),
+                "P111": (R(1, 54), R(4, 27), R(2, 81)), "S100": (R(1, 24), R(1, 12), R(1, 18)),
+                "S110z": (-R(1, 24), R(1, 24), R(1, 9)), "S110": (-R(1, 16), R(1, 16), R(1, 3)),
+                "S111": (-R(17, 216), -R(1, 54), R(61, 162))}}
+    shear3 = R(1, 2) - 1 / (6 * (1 - nu))
+
+    def exact(normal1, shear1, t2, k):
+        normal3 = R(3, 4) * (1 - shear1 / 2 - t2 - c - t2 - R(2, 3) * k)
+        return dict(zip(springs, (normal1, t2 + c, normal3, shear1, t2, k, LAMBDA - c - R(4, 3) * (normal3 - k))))
+
+    t2 = (1 - 3 * nu) / (18 * (1 - nu))
+    lp, lam = sp.symbols("lp lambda")
+    cube_ii = R(2, 5) * (1 - lp)
+    cube_iii = R(8, 15) * (1 - lp)
+    k3 = cube_iii + R(4, 3) * lp
+    isotropic_ii = dict(zip(springs, (cube_ii + lp, cube_ii + lp, 0, cube_ii, cube_ii, 0, lam - lp)))
+    isotropic_iii = dict(zip(springs, (k3, k3 / 2, k3 * R(3, 16), cube_iii, cube_iii / 2, cube_iii * R(3, 16),
+                                       lam - lp)))
+    bent = {"rotational": exact(R(2, 3) - 2 * t, R(2, 3) - 2 * t - 2 * c, t, shear3 - t / 2),  # t stays free
+            "fit": exact(R(2, 3) - 5 * t2, t2, t2, shear3 + t2 / 4)}
+    bent_error = {
+        "rotational": {"P100": R(1, 24), "P110": (6 - 9 * nu + 2 * nu**2) / (96 * (1 - nu) ** 2),
+                       "P111": (15 - 22 * nu + 5 * nu**2) / (216 * (1 - nu) ** 2), "S100": (1 + nu) / (48 * (1 - nu)),
+                       "S110z": (1 + 3 * nu) / (96 * (1 - nu)), "S110": -(1 - 2 * nu) / (48 * (1 - nu)),
+                       "S111": -(3 - 10 * nu) / (216 * (1 - nu))},
+        "fit": {"P100": R(1, 24), "P110": (7 - 14 * nu + 8 * nu**2) / (96 * (1 - nu) ** 2),
+                "P111": (39 - 89 * nu + 64 * nu**2) / (432 * (1 - nu) ** 2), "S100": R(1, 24),
+                "S110z": (7 - 9 * nu) / (96 * (1 - nu)), "S110": (3 - 4 * nu) / (48 * (1 - nu)),
+                "S111": (15 - 17 * nu) / (216 * (1 - nu))}}
+    ii_error = {"P110": (22 + 20 * lam + 3 * lp) / (240 * (lam + 2)), "P111": (34 + 35 * lam - 14 * lp) / (360 * (lam + 2))}
+    iii_error = {"P110": (24 + 20 * lam + lp) / (240 * (lam + 2)),
+                 "P111": (114 + 105 * lam - 4 * lp) / (1080 * (lam + 2))}
+
+    for kinematics in ("rotational", "fit"):
+        for wave, (direction, polarisation) in WAVES.items():
+            M, G = wave_terms(direction, polarisation, kinematics)
+            table = (*normal[wave], *shear[kinematics][wave], volumetric.get(wave, 0))
+            same(G, sum(weight * k for weight, k in zip(table, springs)))
+            same(M.subs(isotropic_ii), lam + 2 if wave[0] == "P" else 1)
+            modulus = LAMBDA + 2 if wave[0] == "P" else 1
+            same(G.subs(bent[kinematics]) / (2 * modulus), bent_error[kinematics][wave])
+            if wave in ii_error:
+                same(G.subs(isotropic_ii) / (2 * (lam + 2)), ii_error[wave])
+                same(G.subs(isotropic_iii) / (2 * (lam + 2)), iii_error[wave])
+
 
 if __name__ == "__main__":
     for chapter in (rigid_motions, paper_tensor, least_squares_gradient, surfaces, stiffness, isotropic,
-                    bending_and_torsion):
+                    bending_and_torsion, waves):
         chapter()
     print(f"{checked} identities hold")

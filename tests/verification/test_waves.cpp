@@ -1,4 +1,4 @@
-// Plane standing waves in a bar: frequencies in time against the lattice's own dispersion and the continuum's.
+// Plane waves in bars and periodic boxes: frequencies in time against the lattice's own dispersion and the continuum's.
 #include <gtest/gtest.h>
 
 #include <Eigen/Eigenvalues>
@@ -6,6 +6,7 @@
 #include <complex>
 #include <numbers>
 
+#include "driver/simulation.h"
 #include "koshi/calibration.h"
 #include "koshi/dynamics.h"
 #include "mechanics/dispersion.h"
@@ -165,6 +166,27 @@ TEST_P(Waves, RunAlongTheFaceDiagonal) {
   check_wave(box, lattice, phase, {s, s, 0}, rock.p_wave_speed());
   check_wave(box, lattice, phase, {s, -s, 0}, rock.s_wave_speed());
   check_wave(box, lattice, phase, {0, 0, 1}, rock.s_wave_speed());
+}
+
+// Along [111] in a periodic box of 10 x 10 x 10 cells: 5.8 cells per wavelength.
+TEST_P(Waves, RunAlongTheBodyDiagonal) {
+  model::Definition box = definition({10, 10, 10});
+  box.body.periodic = {true, true, true};
+  const double s = 1 / std::sqrt(2.0), r = 1 / std::sqrt(3.0);
+  const Vec3 phase{2 * pi / 10, 2 * pi / 10, 2 * pi / 10};
+  const auto lattice = periodic();
+  check_wave(box, lattice, phase, {r, r, r}, rock.p_wave_speed());
+  check_wave(box, lattice, phase, {s, -s, 0}, rock.s_wave_speed());
+}
+
+// An undamped periodic box takes 0.9 of the lesser of d / c_p and the infinite lattice's 2 / omega_max: the step for
+// which the validation page states its errors. The search for omega_max stays a little below it.
+TEST_P(Waves, AutomaticStepIsThatOfTheInfiniteLattice) {
+  model::Definition box = definition({8, 8, 8});
+  box.body.periodic = {true, true, true};
+  driver::Simulation simulation(box, Communicator::world());
+  const double limit = std::min(d / rock.p_wave_speed(), 2 / std::sqrt(mechanics::scan_zone(periodic()).largest));
+  EXPECT_NEAR(simulation.time_step() / (0.9 * limit), 1, 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Lattices, Waves,
