@@ -103,8 +103,8 @@ def slender_beam(program, choice, nu, n):
 
 
 def torsion_bar(program, choice, nu, n):
-    """Torque over G J alpha / L. The ends turn against each other and are free to warp. Probes give no moments, so the
-    torque comes from the elastic energy, V = T alpha / 2, exact for a linear body."""
+    """Torque over G J alpha / L. The ends turn against each other and are free to warp. The torque comes from the
+    elastic energy, V = T alpha / 2, exact for a linear body."""
     width, length, alpha = 0.01, 0.04, 0.001
     turn = "".join(f'[[boundary]]\nname = "{face}"\nface = "{face}"\ntwist = {{ y = {angle} }}\n'
                    for face, angle in (("y-min", -alpha / 2), ("y-max", alpha / 2)))
