@@ -171,9 +171,9 @@ Made by `scripts/convergence_study.py` (direct equilibrium, relative residual 1e
 - *Torsion bar*, four widths long, both ends turned as rigid outlines and free to warp: torque over Saint-Venant's,
   G J alpha / L with J = 0.140577 a^4. Warping is free, so the reference is exact for the solid.
 
-A dash: no answer. Cube-I with node rotations has the gear mode (alternate nodes turn against each other without
-resistance), and equilibrium is then found only now and then. Bending-exact springs of the fit are unstable, and refused,
-below nu = -0.2. Above nu = 0.302 bending-exact springs with node rotations twist too stiffly; beam-exact ones, up to
+A dash: bending-exact springs of the fit are unstable, and refused, below nu = -0.2. Cube-I with node rotations has the
+gear mode (alternate nodes turn against each other without resistance): rotations are undetermined there, deflections and
+energies are not, and equilibrium takes ten times the iterations. Above nu = 0.302 bending-exact springs with node rotations twist too stiffly; beam-exact ones, up to
 there the same, give up the bending of plates instead ([why](../theory/08_bending_exact.md)). With the fit bending-exact
 springs meet every condition at any nu they are stable for.
 
