@@ -63,6 +63,12 @@ def run(line, folder):
     return result.stdout + result.stderr
 
 
+def uses_module(line, folder):
+    """Whether a command runs a script of the page that needs the Python module."""
+    script = re.search(r"python3 (\w+\.py)", line)
+    return script and "import koshi" in (folder / script.group(1)).read_text()
+
+
 def read_page(page, folder, counts):
     blocks = list(BLOCK.finditer(page.read_text(encoding="utf-8")))
     for block, following in zip(blocks, blocks[1:] + [None]):
@@ -74,7 +80,7 @@ def read_page(page, folder, counts):
             continue
         lines = [line for line in text.replace("\\\n", " ").splitlines() if line.startswith(RUN)]
         if MODULE is None:
-            lines = [line for line in lines if "python3" not in line]
+            lines = [line for line in lines if not uses_module(line, folder)]
         output = "".join(run(line, folder) for line in lines)
         counts["commands"] += len(lines)
         between = page.read_text(encoding="utf-8")[block.end() : following.start()] if following else " "
