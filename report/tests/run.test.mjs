@@ -117,7 +117,12 @@ test("curves end where the history ends", options, async () => {
   });
   assert.equal(await page.locator("#history .plot").first().locator(".ytitle").textContent(), "press.reaction.y [kN]");
   assert.ok(Math.abs(y * 1e3 - column("press.reaction.y [N]")) < 1e-9 * Math.abs(y * 1e3));
-  assert.ok(Math.abs(x * 1e-6 - column("side.displacement.y [m]")) < 1e-9 * Math.abs(x * 1e-6));
+  // The face is pulled by 0.1 mm.
+  assert.equal(await page.locator("#history .plot").first().locator(".xtitle").textContent(), "pull displacement y [µm]");
+  assert.ok(Math.abs(x - 100) < 1e-9, `${x} µm`);
+  const side = await page.locator("#history .plot").nth(4).evaluate((node) => [node.data[1].name, node.data[1].y.at(-1)]);
+  assert.equal(side[0], "y");
+  assert.ok(Math.abs(side[1] * 1e-6 - column("side.displacement.y [m]")) < 1e-9 * Math.abs(side[1] * 1e-6));
   assert.ok(history.rows.length > 20);
 });
 

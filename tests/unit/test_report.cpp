@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 
+#include "driver/report_history.h"
 #include "driver/report_mesh.h"
 #include "io/field_writer.h"
 #include "io/files.h"
@@ -195,19 +196,43 @@ TEST_F(Results, HeadAndTables) {
 TEST_F(Results, HistoryWithItsPlots) {
   const json history = report_data(directory.path()).at("history");
   const json& columns = history.at("columns");
-  ASSERT_EQ(columns.size(), 6U);
+  ASSERT_EQ(columns.size(), 7U);
   EXPECT_EQ(columns[2].at("name"), "press.reaction.x");
   EXPECT_EQ(columns[2].at("unit"), "N");
   EXPECT_THAT(decoded<double>(columns[2].at("data"), 5), ElementsAre(0, 25000, 50000, 75000, 100000));
   EXPECT_EQ(columns[5].at("unit"), "1");
   const json& plots = history.at("plots");
   ASSERT_EQ(plots.size(), 5U);
-  EXPECT_EQ(plots[0].at("x"), "tip.displacement.x");
+  // The press goes 0.01 m along x within 0.5 s; rows are 0.25 s apart.
+  EXPECT_EQ(plots[0].at("x"), "top displacement x");
+  EXPECT_EQ(columns[6].at("name"), "top displacement x");
+  EXPECT_EQ(columns[6].at("unit"), "m");
+  EXPECT_THAT(decoded<double>(columns[6].at("data"), 5), ElementsAre(0, 0.005, 0.01, 0.01, 0.01));
   EXPECT_EQ(plots[0].at("y"), json({"press.reaction.x"}));
   EXPECT_EQ(plots[1].at("y"), json({"elastic", "kinetic"}));
   EXPECT_EQ(plots[2].at("y"), json({"unbalanced ratio"}));
   EXPECT_EQ(plots[2].at("log"), true);
   EXPECT_EQ(plots[4].at("title"), "press");
+}
+
+TEST_F(Results, HistoryOfAPressWithAVelocityAndOfNone) {
+  model::Definition definition = io::read_case(directory / "resolved.toml");
+  const std::vector<io::HistoryColumn> columns{{"time", "s", {0, 1, 3}},
+                                               {"tip.displacement.x", "m", {0, 0.5, 0.1}},
+                                               {"press.reaction.x", "N", {0, 7, 2}},
+                                               {"press.reaction.y", "N", {0, 9, 0}}};
+  // 2 m/s that rise within 1 s: 1 m at the end of the first second, 5 m two seconds later.
+  model::BoundaryDefinition& top = definition.boundaries[1];
+  top.displacement = {}, top.velocity[0] = 2, top.ramp = 1;
+  json history = history_block(columns, definition);
+  EXPECT_EQ(history.at("plots")[0].at("y"), json({"press.reaction.x"}));
+  EXPECT_THAT(decoded<double>(history.at("columns")[4].at("data"), 3), ElementsAre(0, 1, 5));
+  // Nothing moves: what changes most, each against the other.
+  top.velocity = {};
+  history = history_block(columns, definition);
+  EXPECT_EQ(history.at("columns").size(), 4U);
+  EXPECT_EQ(history.at("plots")[0].at("x"), "tip.displacement.x");
+  EXPECT_EQ(history.at("plots")[0].at("y"), json({"press.reaction.y"}));
 }
 
 TEST_F(Results, MeshCarriesEveryNodeAndSample) {
