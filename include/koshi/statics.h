@@ -19,19 +19,23 @@ struct StaticOptions {
 
 /// How it went.
 struct SolveReport {
-  int iterations = 0;                    ///< of conjugate gradients
-  double relative_residual = 0;          ///< at the end, over the right-hand side
-  std::int64_t unknowns = 0;             ///< free components of all nodes
-  int levels = 0;                        ///< of the multigrid hierarchy
-  bool converged = false;                ///< to the tolerance
-  std::string reason;                    ///< PETSc's word for why it ended
-  std::vector<double> residual_history;  ///< relative residual after 0, 1, 2 ... iterations
-  double setup_seconds = 0;              ///< wall time before the iterations [s]
-  double solve_seconds = 0;              ///< wall time of the iterations [s]
-  int projected_motions = 0;             ///< rigid motions that nothing holds, taken out
+  int iterations = 0;                       ///< of conjugate gradients
+  double relative_residual = 0;             ///< at the end, over the right-hand side
+  std::int64_t unknowns = 0;                ///< free components of all nodes
+  int levels = 0;                           ///< of the multigrid hierarchy
+  bool converged = false;                   ///< to the tolerance
+  std::string reason;                       ///< PETSc's word for why it ended
+  std::vector<double> residual_history;     ///< relative residual after 0, 1, 2 ... iterations
+  double setup_seconds = 0;                 ///< wall time before the iterations [s]
+  double solve_seconds = 0;                 ///< wall time of the iterations [s]
+  int projected_motions = 0;                ///< rigid motions that nothing holds, taken out
+  std::string free_motions;                 ///< the same in words, part by part; empty when all parts are held
+  std::vector<std::string> unused_options;  ///< PETSc options that nothing asked for
 };
 
-/// Fills the state's displacements with the equilibrium under the loads at the end of their histories (collective).
+/// Fills the state's displacements with the equilibrium under the loads at the end of their histories; velocities are
+/// zero (collective). Throws InputError when the loads move a part that nothing holds,
+/// RunError when the iteration does not converge; displacements are not defined then.
 SolveReport solve_static(const model::Model& model, model::State& state, const StaticOptions& options);
 
 }  // namespace koshi::statics

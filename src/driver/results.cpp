@@ -35,6 +35,7 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
                   {"reason", s.reason},
                   {"projected_motions", s.projected_motions},
                   {"residual_history", s.residual_history}});
+    if (!s.free_motions.empty()) entry["free_motions"] = s.free_motions;
     return entry;
   }
   entry.update({{"steps", outcome.steps},
@@ -106,16 +107,19 @@ nlohmann::ordered_json summary(const model::Model& model, const model::State& st
 
 std::string headline(const model::Model& model, const Outcome& outcome) {
   std::string text;
-  if (outcome.solution)
+  if (outcome.solution) {
     text = fmt::format("equilibrium of {} unknowns in {} iterations, residual {:.1e}, {:.3g} s\n",
                        outcome.solution->unknowns, outcome.solution->iterations, outcome.solution->relative_residual,
                        outcome.seconds);
-  else
+    if (!outcome.solution->free_motions.empty())
+      text += fmt::format("  {}; the solution is without that motion\n", outcome.solution->free_motions);
+  } else {
     text = fmt::format(
         "{} nodes, {} steps of {:.4g} s, unbalanced-force ratio {:.1e}, {:.3g} s ({:.3g} million node-steps/s)\n",
         model.node_count, outcome.steps, outcome.time_step, outcome.measurement.balance.unbalanced_ratio(),
         outcome.seconds,
         1e-6 * static_cast<double>(model.node_count) * static_cast<double>(outcome.steps) / outcome.seconds);
+  }
   for (std::size_t p = 0; p < model.probes.size(); ++p) {
     const model::ProbeDefinition& probe = model.probes[p].definition;
     text += fmt::format("  {} {}: ", probe.name, mechanics::name_of(probe.quantity));

@@ -67,6 +67,9 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
 
   Outcome outcome = simulation.run(observer, options.petsc_options);
   progress.finish("");
+  if (outcome.solution && communicator.is_root())
+    for (const std::string& option : outcome.solution->unused_options)
+      fmt::print(stderr, "warning: PETSc option {} was not used; check its name\n", option);
   if (outcome.stopped && checkpoints.stop_requested())
     throw RunError(fmt::format("stopped by a signal at step {} (t = {:.6g} s); go on with --restart {}", state.step,
                                state.time, (options.directory / "checkpoint.h5").string()));

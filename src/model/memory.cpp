@@ -3,9 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <random>
+#include <set>
+#include <string>
 
 #include "koshi/model.h"
 #include "model/regions.h"
@@ -16,8 +20,68 @@ namespace {
 // A process before it holds a model, with its libraries [bytes].
 constexpr double process = 35e6;
 
-// The static solver's levels and vectors beside the model and the state [bytes per node and component].
-constexpr double solver = 60;
+// The same for static analyses, PETSc and its libraries included [bytes].
+constexpr double static_process = 80e6;
+
+// The static solver beside the model and the state (statics/level.h, solve_static.cpp): PETSc's solution and three
+// vectors of conjugate gradients, without ghosts; on each level b, x and y in single precision with ghosts and padding;
+// the coarsest level as a matrix of 27 nodes a row and its Cholesky factor, which were measured. Mixed bodies take
+// more, see mixed_bytes().
+double solver_bytes(const lattice::Grid& grid, int components, int ranks) {
+  const double vector = 8.0 * components * static_cast<double>(grid.node_count());
+  double bytes = 4 * vector;
+  for (lattice::Grid level = grid;; level.d *= 2) {
+    const Int3 n = level.nodes();
+    const std::int64_t pitch = (n[0] + 2 + 15) / 16 * 16;
+    const double values = static_cast<double>(pitch * (n[1] + 2) * (n[2] + 2));
+    bytes += 3.0 * 4 * components * values;
+    // The cells' constants are gone before the vectors come, and leave a hole in the heap that a vector fills if it
+    // fits.
+    if (const double constants = 4.0 * 7 * values; level.d == grid.d && constants < vector) bytes += constants;
+    const double unknowns = static_cast<double>(level.node_count() * components);
+    if (unknowns <= 8000)
+      return bytes + ranks * (12.0 * 27 * components * unknowns + 12e6 * std::pow(unknowns / 4536, 4.0 / 3));
+    for (std::int64_t& cells : level.cells) cells = (cells + 1) / 2;
+  }
+}
+
+// Where materials mix, the static solver keeps the constants of each distinct row of cells (spring_rows.h) and the
+// inverse blocks of each distinct group of 16 nodes that is not uniform (node_blocks.h). How many are distinct is told
+// from a sample of rows.
+double mixed_bytes(const Definition& definition, const lattice::Grid& grid, int components) {
+  if (definition.body.cells.empty() && definition.regions.empty()) return 0;
+  constexpr int rows_sampled = 400;
+  constexpr std::int64_t group_nodes = 16;
+  const auto material_of = material_of_cells(definition, grid);
+  const Int3& n = grid.cells;
+  const std::int64_t groups_per_row = (n[0] + group_nodes) / group_nodes;
+  std::set<std::string> rows, groups;
+  std::minstd_rand random;  // the same sample every time
+  for (int sample = 0; sample < rows_sampled; ++sample) {
+    const std::int64_t j = static_cast<std::int64_t>(random()) % n[1], k = static_cast<std::int64_t>(random()) % n[2];
+    std::array<std::string, 4> around;  // the rows of cells around a row of nodes
+    for (std::size_t r = 0; r < around.size(); ++r)
+      for (std::int64_t i = 0; i < n[0]; ++i)
+        around[r] += static_cast<char>(material_of(
+            {i, std::min<std::int64_t>(j + (r & 1), n[1] - 1), std::min<std::int64_t>(k + (r >> 1), n[2] - 1)}));
+    rows.insert(around[0]);
+    for (std::int64_t g = 0; g < groups_per_row; ++g) {
+      const auto first = static_cast<std::size_t>(std::max<std::int64_t>(g * group_nodes - 1, 0));
+      std::string group;
+      for (const std::string& row : around) group += row.substr(first, group_nodes + 1);
+      if (group.find_first_not_of(group[0]) == std::string::npos) continue;
+      groups.insert(static_cast<char>(g) + group);
+    }
+  }
+  // A body of a few kinds of rows repeats them; up to a dozen say nothing of how many more there are.
+  const double part = 1.0 / rows_sampled, count = static_cast<double>((n[1] + 1) * (n[2] + 1));
+  const double distinct_rows = rows.size() > 12 ? part * static_cast<double>(rows.size()) : 0;
+  const double distinct_groups = rows.size() > 12 ? part * static_cast<double>(groups.size()) : 0;
+  const double row_bytes = 4.0 * 7 * static_cast<double>(n[0] + 48);
+  const double group_bytes = 4.0 * static_cast<double>(components * (components + 1) / 2 * group_nodes);
+  // Coarser levels: an eighth of the nodes each, twice the part of them near an interface.
+  return count * (8.0 / 7 * distinct_rows * row_bytes + 4.0 / 3 * distinct_groups * group_bytes);
+}
 
 // Bytes per node of the fields of a sample: those that are computed, and the copies that go to the file.
 double sample_bytes(const Definition& definition) {
@@ -52,13 +116,19 @@ double predicted_memory(const Definition& definition, int ranks) {
   const bool rotational = definition.lattice.kinematics == material::Kinematics::rotational;
   const bool statics = definition.analysis.type == AnalysisDefinition::Type::statics;
   const int components = rotational ? 6 : 3, inertias = rotational ? 2 : 1;
+  const double count = static_cast<double>(nodes[0] * nodes[1]) * static_cast<double>(nodes[2]);
 
   // The cell and its bonds; inertia; displacement and velocity. Explicit runs keep the inverse inertia as well.
   double bytes = 1 + lattice::slot_count + 8 * inertias + 16 * components;
   const bool orients = std::count(definition.output.fields.begin(), definition.output.fields.end(), "orientation") != 0;
-  bytes += statics ? solver * components : 8 * inertias + (orients ? 32 : 0);
-  const double count = static_cast<double>(nodes[0] * nodes[1]) * static_cast<double>(nodes[2]);
-  return process * ranks + bytes * static_cast<double>(whole.size()) + sample_bytes(definition) * count;
+  const double sample = sample_bytes(definition) * count;
+  if (statics) {
+    // The solver's memory is free again when fields are written.
+    const double solver = solver_bytes(grid, components, ranks) + mixed_bytes(definition, grid, components);
+    return static_process * ranks + bytes * static_cast<double>(whole.size()) + std::max(solver, sample);
+  }
+  bytes += 8 * inertias + (orients ? 32 : 0);
+  return process * ranks + bytes * static_cast<double>(whole.size()) + sample;
 }
 
 void check_memory(const Definition& definition, int ranks) {

@@ -122,9 +122,7 @@ Hierarchy::Hierarchy(const LevelGrid& grid, int components, const RowField<float
   if (options_.serial) {
     coarse_ = std::make_unique<CoarseSolver>(*levels_.back(), options_.shift);
   } else {
-    CycleOptions below = options_;
-    below.depth += static_cast<int>(levels_.size()) - 1;
-    gathered_ = std::make_unique<Gathered>(*levels_.back(), *last, below);
+    gathered_ = std::make_unique<Gathered>(*levels_.back(), *last, options_);
   }
 }
 
@@ -135,19 +133,16 @@ int Hierarchy::level_count() const {
   return gathered_ ? own - 1 + gathered_->level_count() : own;
 }
 
-void Hierarchy::cycle(std::size_t l, bool from_zero) {
+void Hierarchy::cycle(std::size_t l) {
   Level& level = *levels_[l];
   if (l + 1 == levels_.size()) {
     options_.serial ? coarse_->solve(level) : gathered_->solve(level);
     return;
   }
   Level& coarse = *levels_[l + 1];
-  level.relax(options_.degree, options_.bound, from_zero);
+  level.relax(options_.degree, options_.bound, true);
   level.restrict_residual(coarse);
-  cycle(l + 1, true);
-  // From the third level on, where cycles cost next to nothing, a second one.
-  const bool is_last = l + 2 == levels_.size();
-  if (options_.depth + static_cast<int>(l) + 1 >= 2 && !is_last) cycle(l + 1, false);
+  cycle(l + 1);
   level.add_correction(coarse);
   level.relax(options_.degree, options_.bound, false);
 }

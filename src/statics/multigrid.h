@@ -2,6 +2,9 @@
 //
 // Not PETSc's PCMG: its levels are vectors in double precision, and its smoothers pass over memory once for the
 // operator and again for each vector operation. Here a sweep reads and writes each value once, at half the width.
+//
+// A V-cycle, not a W-cycle: merged cells are softer than their interpolated motions, without bound near nu = 1/2, and a
+// second visit of a level that overshoots by more than two would make the preconditioner indefinite.
 #pragma once
 
 #include <memory>
@@ -16,7 +19,6 @@ struct CycleOptions {
   int degree = 3;       ///< of the relaxation, before and after the coarser level
   double bound = 0;     ///< of the relaxation, relaxation_bound()
   double shift = 0;     ///< of the coarsest level, CoarseSolver
-  int depth = 0;        ///< levels above this hierarchy
   bool serial = false;  ///< one rank only
 };
 
@@ -30,13 +32,13 @@ class Hierarchy {
   ~Hierarchy();
 
   /// One cycle: finest().x = M finest().b, M close to the inverse of K, symmetric and positive (collective).
-  void cycle() { cycle(0, true); }
+  void cycle() { cycle(0); }
   Level& finest() { return *levels_.front(); }
   int level_count() const;
 
  private:
   class Gathered;
-  void cycle(std::size_t l, bool from_zero);
+  void cycle(std::size_t l);
 
   CycleOptions options_;
   std::vector<std::unique_ptr<Level>> levels_;

@@ -13,7 +13,8 @@ namespace {
 
 using mechanics::block_width;
 using mechanics::cell_constants;
-using Block = Eigen::Matrix<double, 6, 6>;
+/// A node's block, without memory of its own on the heap.
+using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
 /// The four rows of cells around a row of nodes: r = 0 ... 3 for (j, k), (j-1, k), (j, k-1), (j-1, k-1).
 using CellRows = std::array<std::int32_t, 4>;
@@ -36,8 +37,8 @@ class BlockMaker {
   }
 
   /// Inverse block of node i.
-  Eigen::MatrixXd inverse(const CellRows& rows, std::int64_t i, std::uint8_t fixed) const {
-    Eigen::MatrixXd K = Eigen::MatrixXd::Zero(components_, components_);
+  Block inverse(const CellRows& rows, std::int64_t i, std::uint8_t fixed) const {
+    Block K = Block::Zero(components_, components_);
     for (int corner = 0; corner < 8; ++corner)
       for (int q = 0; q < cell_constants; ++q)
         if (const float k = constant(rows, i, corner, q); k != 0) K += k * corner_[q][corner];
@@ -47,7 +48,7 @@ class BlockMaker {
         K.col(c).setZero();
         K(c, c) = 1;
       }
-    Eigen::MatrixXd B = K.llt().solve(Eigen::MatrixXd::Identity(components_, components_));
+    Block B = K.llt().solve(Block::Identity(components_, components_));
     for (int c = 0; c < components_; ++c)
       if (fixed >> c & 1) B(c, c) = 0;
     return B;
@@ -72,7 +73,14 @@ class BlockMaker {
 
   const SpringRows& springs_;
   int components_;
-  std::array<std::array<Eigen::MatrixXd, 8>, cell_constants> corner_;
+  std::array<std::array<Block, 8>, cell_constants> corner_;
+};
+
+/// A group of nodes with blocks of its own.
+struct Group {
+  CellRows rows;
+  std::int64_t first, last;
+  std::array<std::uint8_t, block_width> fixed;
 };
 
 }  // namespace
@@ -82,7 +90,7 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
   const Int3& owned = springs.owned();
   const BlockMaker maker(springs, components);
   std::unordered_map<std::string, std::int32_t> known;
-  std::array<std::uint8_t, block_width> mask;
+  std::vector<Group> distinct;
   auto next_fixed = fixed.begin();
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j) {
@@ -92,12 +100,12 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
       empty_.push_back(empty);
       for (std::int64_t first = 0; first < owned[0]; first += block_width) {
         const std::int64_t last = std::min(first + block_width, owned[0]);
-        mask.fill(0);
+        Group group{rows, first, last, {}};
         bool any_fixed = false;
         for (; next_fixed != fixed.end() && next_fixed->node[2] == k && next_fixed->node[1] == j &&
                next_fixed->node[0] < last;
              ++next_fixed) {
-          mask[static_cast<std::size_t>(next_fixed->node[0] - first)] = next_fixed->mask;
+          group.fixed[static_cast<std::size_t>(next_fixed->node[0] - first)] = next_fixed->mask;
           any_fixed = true;
         }
         if (empty) {
@@ -106,30 +114,35 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
         }
         std::string key(reinterpret_cast<const char*>(rows.data()), sizeof rows);
         key.append(reinterpret_cast<const char*>(&first), sizeof first);
-        key.append(mask.begin(), mask.end());
+        key.append(group.fixed.begin(), group.fixed.end());
         const auto [entry, is_new] = known.try_emplace(key, 0);
         if (is_new && !any_fixed && maker.is_uniform(rows, first, last)) {
           // By symmetry the block is a multiple of one for displacements and for rotations.
           entry->second = ~static_cast<std::int32_t>(uniform_.size() / 2);
-          const Eigen::MatrixXd B = maker.inverse(rows, first, 0);
+          const Block B = maker.inverse(rows, first, 0);
           uniform_.push_back(static_cast<float>(B(0, 0)));
           uniform_.push_back(static_cast<float>(B(components - 1, components - 1)));
         } else if (is_new) {
-          const std::size_t start = blocks_.size(), set = static_cast<std::size_t>(components * (components + 1) / 2) *
-                                                          static_cast<std::size_t>(block_width);
-          entry->second = static_cast<std::int32_t>(start / set);
-          blocks_.resize(start + set);
-          for (std::int64_t i = first; i < last; ++i) {
-            if (maker.is_empty(rows, i)) continue;
-            const Eigen::MatrixXd B = maker.inverse(rows, i, mask[static_cast<std::size_t>(i - first)]);
-            float* to = blocks_.data() + start + (i - first);
-            for (int a = 0; a < components; ++a)
-              for (int b = 0; b <= a; ++b, to += block_width) *to = static_cast<float>(B(a, b));
-          }
+          entry->second = static_cast<std::int32_t>(distinct.size());
+          distinct.push_back(group);
         }
         groups_.push_back(entry->second);
       }
     }
+
+  // A mixed body has as many distinct groups as nodes: their memory is taken once, at its size.
+  const std::size_t set = static_cast<std::size_t>(components * (components + 1) / 2 * block_width);
+  blocks_.resize(distinct.size() * set);
+  for (std::size_t g = 0; g < distinct.size(); ++g) {
+    const Group& group = distinct[g];
+    for (std::int64_t i = group.first; i < group.last; ++i) {
+      if (maker.is_empty(group.rows, i)) continue;
+      const Block B = maker.inverse(group.rows, i, group.fixed[static_cast<std::size_t>(i - group.first)]);
+      float* to = blocks_.data() + g * set + (i - group.first);
+      for (int a = 0; a < components; ++a)
+        for (int b = 0; b <= a; ++b, to += block_width) *to = static_cast<float>(B(a, b));
+    }
+  }
 }
 
 }  // namespace koshi::statics

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "koshi/error.h"
 
 namespace koshi::statics {
@@ -15,6 +17,21 @@ void check(PetscErrorCode code) {
                              specific != nullptr && *specific != '\0' ? ": " : "",
                              specific != nullptr ? specific : ""));
 }
+
+namespace {
+
+// Options of a set that nothing has asked for, as on a command line.
+std::vector<std::string> left(PetscOptions options) {
+  PetscInt count = 0;
+  char **names = nullptr, **values = nullptr;
+  check(PetscOptionsLeftGet(options, &count, &names, &values));
+  std::vector<std::string> unused;
+  for (PetscInt i = 0; i < count; ++i) unused.push_back(std::string("-") + names[i]);
+  check(PetscOptionsLeftRestore(options, &count, &names, &values));
+  return unused;
+}
+
+}  // namespace
 
 PetscSession::PetscSession(const Communicator& communicator, const std::vector<std::string>& options) {
   PetscBool ready = PETSC_FALSE;
@@ -31,6 +48,10 @@ PetscSession::PetscSession(const Communicator& communicator, const std::vector<s
     PETSC_COMM_WORLD = MPI_Comm_f2c(communicator.handle());
     check(PetscInitialize(&count, &values, nullptr, nullptr));
     owns_ = true;
+    // What the start has taken, such as -log_view, is not asked for again.
+    const std::vector<std::string> waiting = left(nullptr);
+    for (const std::string& option : options)
+      if (std::find(waiting.begin(), waiting.end(), option) == waiting.end()) taken_at_start_.push_back(option);
   }
   PetscPushErrorHandler(PetscReturnErrorHandler, nullptr);
   check(PetscOptionsCreate(&options_));
@@ -48,12 +69,10 @@ PetscSession::~PetscSession() {
 }
 
 std::vector<std::string> PetscSession::unused_options() const {
-  PetscInt count = 0;
-  char **names = nullptr, **values = nullptr;
-  check(PetscOptionsLeftGet(options_, &count, &names, &values));
-  std::vector<std::string> unused;
-  for (PetscInt i = 0; i < count; ++i) unused.push_back(std::string("-") + names[i]);
-  check(PetscOptionsLeftRestore(options_, &count, &names, &values));
+  std::vector<std::string> unused = left(options_);
+  std::erase_if(unused, [&](const std::string& option) {
+    return std::find(taken_at_start_.begin(), taken_at_start_.end(), option) != taken_at_start_.end();
+  });
   return unused;
 }
 

@@ -48,11 +48,12 @@ class PetscSession {
   PetscSession(const PetscSession&) = delete;
   PetscSession& operator=(const PetscSession&) = delete;
 
-  /// Options that nothing has asked for.
+  /// Options that neither PETSc's start nor anything since has asked for.
   std::vector<std::string> unused_options() const;
 
  private:
   bool owns_ = false;
+  std::vector<std::string> taken_at_start_;
   PetscOptions options_ = nullptr;
 };
 

@@ -11,6 +11,17 @@
 
 namespace koshi::statics {
 
+/// Memory for vectors of 64 bytes, not initialised.
+struct AlignedDelete {
+  void operator()(void* p) const { ::operator delete[](p, std::align_val_t{64}); }
+};
+template <class T>
+using AlignedArray = std::unique_ptr<T[], AlignedDelete>;
+template <class T>
+AlignedArray<T> aligned_array(std::int64_t size) {
+  return AlignedArray<T>(new (std::align_val_t{64}) T[static_cast<std::size_t>(size)]);
+}
+
 /// Values of type T on a rank's nodes and one layer of ghosts, zero at first. The components of a row of nodes lie side
 /// by side, `pitch` elements apart and aligned to 64 bytes: a sweep then runs through memory in few long streams.
 template <class T>
@@ -23,7 +34,7 @@ class RowField {
         pitch_((owned[0] + 2 + width - 1) / width * width),
         row_(pitch_ * components),
         plane_(row_ * (owned[1] + 2)),
-        data_(new (std::align_val_t{64}) T[static_cast<std::size_t>(size())]) {
+        data_(aligned_array<T>(size())) {
     zero();
   }
 
@@ -46,14 +57,11 @@ class RowField {
   static constexpr std::int64_t width = 64 / static_cast<std::int64_t>(sizeof(T));
   // Vectors may be read and written beyond the last row.
   std::int64_t size() const { return plane_ * (owned_[2] + 2) + 4 * width; }
-  struct Free {
-    void operator()(T* p) const { ::operator delete[](p, std::align_val_t{64}); }
-  };
 
   Int3 owned_{};
   int components_ = 0;
   std::ptrdiff_t pitch_ = 0, row_ = 0, plane_ = 0;
-  std::unique_ptr<T[], Free> data_;
+  AlignedArray<T> data_;
 };
 
 }  // namespace koshi::statics

@@ -3,19 +3,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <exception>
 
-#include "statics/cell_springs.h"
+#include "base/progress.h"
 #include "statics/equilibrium.h"
 #include "statics/free_motions.h"
-#include "statics/multigrid.h"
 #include "statics/petsc.h"
+#include "statics/preconditioner.h"
 
 namespace koshi::statics {
 namespace {
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 // The time at which all histories and ramps have ended, or the duration asked for.
 double end_time(const model::Definition& definition) {
@@ -31,77 +28,6 @@ double end_time(const model::Definition& definition) {
   }
   return t;
 }
-
-// What the preconditioner takes for each material. Edges alone leave node rotations a checkerboard that costs nothing,
-// and coarse levels would fall for it: face diagonals with a tenth of their shear stiffness hold it.
-std::vector<CellConstants> preconditioner_constants(const model::SpringLattice& body) {
-  std::vector<CellConstants> by_material;
-  for (const material::Springs& springs : body.springs) {
-    CellConstants& k = by_material.emplace_back(cell_constants(springs, body.grid.d));
-    if (springs.kt[1] == 0 && springs.kt[2] == 0) k[3] = 0.1 * k[1];
-  }
-  return by_material;
-}
-
-// Constants of all cells, scaled so that the stiffest is 1: single precision then serves any unit.
-RowField<float> fine_constants(const model::SpringLattice& body, const std::vector<CellConstants>& by_material) {
-  double largest = 0;
-  for (const CellConstants& constants : by_material)
-    for (const double k : constants) largest = std::max(largest, std::abs(k));
-  RowField<float> constants(body.layout.owned(), mechanics::cell_constants);
-  const std::uint8_t* const cell = body.cell.component(0);
-  lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
-    if (cell[n] == 0) return;
-    for (int q = 0; q < mechanics::cell_constants; ++q)
-      constants.row(j, k)[q * constants.pitch() + i] = static_cast<float>(by_material[cell[n]][q] / largest);
-  });
-  return constants;
-}
-
-/// The preconditioner between PETSc's vectors and the hierarchy.
-class Preconditioner {
- public:
-  Preconditioner(const model::Model& model, const FixedNodes& fixed, const FreeMotions& free)
-      : components_(model.components()), free_(free) {
-    const model::SpringLattice& body = model.lattice;
-    const auto by_material = preconditioner_constants(body);
-    CycleOptions options;
-    for (std::size_t m = 1; m < by_material.size(); ++m)
-      options.bound = std::max(options.bound, relaxation_bound(by_material[m], components_));
-    options.shift = free.count() > 0 ? 1e-8 : 0;
-    // Nearly incompressible springs have a wide spectrum that the relaxation must cover.
-    options.degree = options.bound < 4 ? 3 : options.bound < 6 ? 4 : 5;
-    hierarchy_ = std::make_unique<Hierarchy>(LevelGrid{body.grid, body.partition, body.halo}, components_,
-                                             fine_constants(body, by_material), fixed, options);
-  }
-
-  void apply(const double* r, double* z) {
-    Level& level = hierarchy_->finest();
-    transfer(level.b, [&](float& to, std::int64_t at) { to = static_cast<float>(r[at]); });
-    hierarchy_->cycle();
-    transfer(level.x, [&](float& from, std::int64_t at) { z[at] = from; });
-    free_.project(z);
-  }
-
-  int level_count() const { return hierarchy_->level_count(); }
-
- private:
-  template <class F>
-  void transfer(RowField<float>& field, F&& copy) {
-    const Int3& n = field.owned();
-    std::int64_t at = 0;
-    for (int c = 0; c < components_; ++c)
-      for (std::int64_t k = 0; k < n[2]; ++k)
-        for (std::int64_t j = 0; j < n[1]; ++j) {
-          float* const row = field.row(j, k) + c * field.pitch();
-          for (std::int64_t i = 0; i < n[0]; ++i) copy(row[i], at++);
-        }
-  }
-
-  int components_;
-  const FreeMotions& free_;
-  std::unique_ptr<Hierarchy> hierarchy_;
-};
 
 /// What the callbacks from PETSc need; exceptions wait here until PETSc has returned.
 struct Context {
@@ -160,25 +86,54 @@ PetscErrorCode monitor(KSP, PetscInt iteration, PetscReal residual, void* data) 
   });
 }
 
+// The residuals of at most a dozen iterations, the last one among them.
 std::string history_text(const std::vector<double>& history) {
+  constexpr std::size_t shown = 12;
   std::string text;
-  const std::size_t step = std::max<std::size_t>(1, history.size() / 10);
-  for (std::size_t i = 0; i < history.size(); i += step) text += fmt::format(" {}: {:.1e}", i, history[i]);
+  const std::size_t step = (history.size() + shown - 1) / shown;
+  for (std::size_t i = 0; i < history.size(); ++i)
+    if ((history.size() - 1 - i) % step == 0)
+      text += fmt::format("{}{}: {:.1e}", text.empty() ? "" : ", ", i, history[i]);
   return text;
 }
+
+std::string hint(KSPConvergedReason reason, const std::vector<double>& history) {
+  const double least = history.empty() ? 1 : *std::min_element(history.begin(), history.end());
+  if (reason == KSP_DIVERGED_NANORINF) return "numbers overflowed; check loads and units";
+  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC)
+    return "some motion of the body costs no energy or releases it; `koshi check` says what the springs can hold";
+  if (least < 1e-12) return "rounding ends what can be reached; take a tolerance of 1e-11 or more";
+  return "allow more iterations (-- -ksp_max_it 2000) or a larger analysis.tolerance; parts that hang together by "
+         "single nodes or by very soft material converge slowly";
+}
+
+/// Memory of the state that waits for its values until the end; all zero again when this is gone.
+class Borrowed {
+ public:
+  explicit Borrowed(lattice::Field<double>& field) : field_(field) {}
+  ~Borrowed() { field_.zero(); }
+  Borrowed(const Borrowed&) = delete;
+  Borrowed& operator=(const Borrowed&) = delete;
+  double* data() { return field_.data(); }
+
+ private:
+  lattice::Field<double>& field_;
+};
 
 }  // namespace
 
 SolveReport solve_static(const model::Model& model, model::State& state, const StaticOptions& options) {
   SolveReport report;
-  const double start = now();
+  const double start = steady_seconds();
   state.time = end_time(model.definition);
-  state.velocity.zero();
+  // Velocities are zero at rest: their memory holds the right-hand side, that of the displacements the operand of K.
+  Borrowed right_hand_side(state.velocity);
   const PetscSession session(model.communicator, options.petsc_options);
   Equilibrium equilibrium(model, state.time, state.displacement);
   const FreeMotions free(model, equilibrium.fixed());
   Preconditioner preconditioner(model, equilibrium.fixed(), free);
   report.projected_motions = free.count();
+  report.free_motions = free.description();
   report.levels = preconditioner.level_count();
   report.unknowns = model.node_count * model.components() - model.motion_count;
 
@@ -190,13 +145,11 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(apply_operator)));
   check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
   PetscVec x, b;
-  check(MatCreateVecs(matrix, x.create(), b.create()));
-  PetscScalar* values = nullptr;
-  check(VecGetArray(b, &values));
-  equilibrium.right_hand_side(values);
-  free.require_balance(values);
-  free.project(values);
-  check(VecRestoreArray(b, &values));
+  check(MatCreateVecs(matrix, x.create(), nullptr));
+  check(VecCreateMPIWithArray(comm, 1, size, PETSC_DETERMINE, right_hand_side.data(), b.create()));
+  equilibrium.right_hand_side(right_hand_side.data());
+  free.require_balance(right_hand_side.data());
+  free.project(right_hand_side.data());
   check(VecNorm(b, NORM_2, &context.reference));
 
   PetscKsp solver;
@@ -212,13 +165,12 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   check(PCShellSetApply(pc, apply_preconditioner));
   check(KSPMonitorSet(solver, monitor, &context, nullptr));
   check(KSPSetFromOptions(solver));
-  check(KSPSetUp(solver));
-  report.setup_seconds = now() - start;
+  report.setup_seconds = steady_seconds() - start;
 
   const PetscErrorCode code = KSPSolve(solver, b, x);
   if (context.error) std::rethrow_exception(context.error);
   check(code);
-  report.solve_seconds = now() - start - report.setup_seconds;
+  report.solve_seconds = steady_seconds() - start - report.setup_seconds;
 
   PetscInt iterations = 0;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
@@ -228,9 +180,12 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   report.relative_residual = report.residual_history.empty() ? 0 : report.residual_history.back();
   report.converged = reason > 0;
   report.reason = KSPConvergedReasons[reason];
+  report.unused_options = session.unused_options();
   if (!report.converged)
-    throw RunError(fmt::format("no equilibrium found: {} after {} iterations, relative residual{}", report.reason,
-                               report.iterations, history_text(report.residual_history)));
+    throw RunError(fmt::format(
+        "no equilibrium found: {} after {} iterations; relative residual by iteration: {}; {}{}", report.reason,
+        report.iterations, history_text(report.residual_history), hint(reason, report.residual_history),
+        report.unused_options.empty() ? "" : fmt::format("; not used: {}", fmt::join(report.unused_options, " "))));
 
   const PetscScalar* solution = nullptr;
   check(VecGetArrayRead(x, &solution));

@@ -21,7 +21,7 @@ class SpringRows {
     return rows_[static_cast<std::size_t>(j + 1 + (owned_[1] + 1) * (k + 1))];
   }
   /// Constant 0 of cell i = 0 of a row; zero from cell `owned` on.
-  const float* constants(std::int32_t row) const { return pool_.data() + lead + row * row_size_; }
+  const float* constants(std::int32_t row) const { return pool_[static_cast<std::size_t>(row)].get() + lead; }
   std::ptrdiff_t pitch() const { return pitch_; }
   /// Cells first <= i < last of a row hold all that are not empty; first = last: the row is empty.
   struct Span {
@@ -32,10 +32,14 @@ class SpringRows {
 
  private:
   static constexpr std::int64_t lead = 16;
+  using Row = AlignedArray<float>;
+  Row make_row(const RowField<float>& constants, std::int64_t j, std::int64_t k) const;
+  Span make_span(const float* row) const;
+
   Int3 owned_;
   std::ptrdiff_t pitch_, row_size_;
   std::vector<std::int32_t> rows_;
-  std::vector<float> pool_;
+  std::vector<Row> pool_;
   std::vector<Span> spans_;
 };
 

@@ -1,0 +1,74 @@
+#include "statics/preconditioner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "statics/cell_springs.h"
+
+namespace koshi::statics {
+namespace {
+
+// What the preconditioner takes for each material. Edges alone leave node rotations a checkerboard that costs nothing,
+// and coarse levels would fall for it: face diagonals with a tenth of their shear stiffness hold it.
+std::vector<CellConstants> preconditioner_constants(const model::SpringLattice& body) {
+  std::vector<CellConstants> by_material;
+  for (const material::Springs& springs : body.springs) {
+    CellConstants& k = by_material.emplace_back(cell_constants(springs, body.grid.d));
+    if (body.components() == 6 && springs.kt[1] == 0 && springs.kt[2] == 0) k[3] = 0.1 * k[1];
+  }
+  return by_material;
+}
+
+// Constants of all cells, scaled so that the stiffest is 1: single precision then serves any unit.
+RowField<float> fine_constants(const model::SpringLattice& body, const std::vector<CellConstants>& by_material) {
+  double largest = 0;
+  for (const CellConstants& constants : by_material)
+    for (const double k : constants) largest = std::max(largest, std::abs(k));
+  RowField<float> constants(body.layout.owned(), mechanics::cell_constants);
+  const std::uint8_t* const cell = body.cell.component(0);
+  lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
+    if (cell[n] == 0) return;
+    for (int q = 0; q < mechanics::cell_constants; ++q)
+      constants.row(j, k)[q * constants.pitch() + i] = static_cast<float>(by_material[cell[n]][q] / largest);
+  });
+  return constants;
+}
+
+}  // namespace
+
+Preconditioner::Preconditioner(const model::Model& model, const FixedNodes& fixed, const FreeMotions& free)
+    : components_(model.components()), free_(free) {
+  const model::SpringLattice& body = model.lattice;
+  const auto by_material = preconditioner_constants(body);
+  CycleOptions options;
+  for (std::size_t m = 1; m < by_material.size(); ++m)
+    options.bound = std::max(options.bound, relaxation_bound(by_material[m], components_));
+  options.shift = free.count() > 0 ? 1e-8 : 0;
+  // Nearly incompressible springs have a wide spectrum that the relaxation must cover.
+  options.degree = options.bound < 4 ? 3 : options.bound < 6 ? 4 : 5;
+  hierarchy_ = std::make_unique<Hierarchy>(LevelGrid{body.grid, body.partition, body.halo}, components_,
+                                           fine_constants(body, by_material), fixed, options);
+}
+
+template <class T, class F>
+void Preconditioner::for_each_row(RowField<float>& field, T* unknowns, F&& copy) const {
+  const Int3& n = field.owned();
+  for (int c = 0; c < components_; ++c)
+    for (std::int64_t k = 0; k < n[2]; ++k)
+      for (std::int64_t j = 0; j < n[1]; ++j, unknowns += n[0])
+        copy(field.row(j, k) + c * field.pitch(), unknowns, n[0]);
+}
+
+void Preconditioner::apply(const double* r, double* z) {
+  Level& level = hierarchy_->finest();
+  for_each_row(level.b, r, [](float* to, const double* from, std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) to[i] = static_cast<float>(from[i]);
+  });
+  hierarchy_->cycle();
+  for_each_row(level.x, z, [](const float* from, double* to, std::int64_t count) {
+    for (std::int64_t i = 0; i < count; ++i) to[i] = from[i];
+  });
+  free_.project(z);
+}
+
+}  // namespace koshi::statics
