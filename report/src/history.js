@@ -9,7 +9,7 @@ export function history(block) {
   if (columns.length < 2) return { node: null, start() {} };
   const byName = new Map(columns.map((column) => [column.name, column]));
   const cards = (block.plots ?? []).map((wanted) => plot(chosen(wanted, byName)));
-  const own = ownChoice(columns, byName);
+  const own = ownChoice(block, byName);
   const node = section("history", "History",
     element("div", { class: "cards" }, ...cards.map((card) => card.node), own.node));
   return { node, start: () => [...cards, own].forEach((card) => card.start()) };
@@ -35,11 +35,11 @@ function chosen({ title, x, y, log }, byName) {
     series: up.map(({ name, data }) => ({ name: name.slice(common.length), x: across.data, y: data })) };
 }
 
-function ownChoice(columns, byName) {
+function ownChoice({ columns, plots }, byName) {
   const names = columns.map(({ name }) => [name, name]);
   const x = select("Across", names, { id: "history-x" });
   const y = select("Up", names, { id: "history-y" });
-  y.list.value = columns[1].name;
+  y.list.value = plots?.[0]?.y[0] ?? columns[1].name;
   const place = element("div", {});
   const show = () => {
     const title = `${y.list.value} against ${x.list.value}`;

@@ -65,8 +65,8 @@ bool PaperRow::holds() const { return std::abs(value - limit) <= tolerance; }
 
 std::vector<PaperSection> paper_sections(const PaperStudy& study) {
   const std::string limit = "Expected is what the same lattice gives at rest, by an independent program.";
-  return {{"Table 1: spring stiffnesses [MN/m]", &study.springs, 3, "By (N21) from E = 1112 MPa and nu = 0.18."},
-          {"Table 1: uniaxial compression, u/h0 = 0.02", &study.uniaxial, 3,
+  return {{"Table 1: spring stiffnesses [MN/m]", &study.springs, 3, "By (N21) from E = 1112 MPa and ν = 0.18."},
+          {"Table 1: uniaxial compression, u/h_0 = 0.02", &study.uniaxial, 3,
            "The paper's values come out when one platen holds the rotations and the other leaves them free; the paper "
            "does not say so. " +
                limit},
