@@ -51,6 +51,13 @@ def cantilever(koshi, directory, cell, calibration, kinematics, nu):
     return run(koshi, directory, plain(text, "yxz") if calibration == "paper" else text)
 
 
+def automatic_step(koshi, directory, cell, calibration, kinematics):
+    """Step of the undamped cantilever [s]."""
+    text = case(("", cell, calibration, kinematics), 0.18, 0.002, (0.018, 0.078, 0.018), CLAMP + TIP_LOAD, TIP_PROBE)
+    text = text.replace('type = "static"', 'type = "dynamic"\nduration = 1e-3\ndamping = { kind = "none" }')
+    return run(koshi, directory, text.replace("tolerance = 1e-9", ""))["analysis"]["time_step"]
+
+
 def cost(koshi, directory, cell, calibration):
     """Seconds per node and step of both kinematics, the least of three turns."""
     least = {}
@@ -84,6 +91,15 @@ def accuracy(koshi, directory):
                      for u in (100 * b["probes"]["tip"]["displacement"][0] for b in both)]
             print(f"| {calibration}, nu = {nu:g} | " + " | ".join(texts) + " |")
     print(f"\nUnknowns of the cantilever: {unknowns[0]} and {unknowns[1]}.")
+
+    print("\n| cantilever, nu = 0.18 | rotational | least-squares |\n|---|---|---|")
+    for cell, calibration in (("cube-II", "isotropic"), ("cube-III", "bending-exact")):
+        both = [cantilever(koshi, directory, cell, calibration, k, 0.18) for k in KINEMATICS]
+        print(f"| {cell}, {calibration}: iterations to 1e-9 | " +
+              " | ".join(str(b["analysis"]["iterations"]) for b in both) + " |")
+        both = [automatic_step(koshi, directory, cell, calibration, k) for k in KINEMATICS]
+        print(f"| {cell}, {calibration}: automatic step, undamped [us] | " +
+              " | ".join("%.3f" % (1e6 * step) for step in both) + " |")
 
 
 def costs(koshi, directory):

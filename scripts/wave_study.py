@@ -61,7 +61,9 @@ are within 0.62 / 0.16 %: P along [111] is the worst with node rotations, and no
 twist exactly changes it. Along [100] P is off by 0.41 / 0.10 % in space whatever the springs: the lumped mass sets it.
 
 The step helps because a central difference raises frequencies while the lattice lowers them: in space alone the errors
-are larger (second table). A smaller step, as bodies with free corners and local damping need it, lies between the two.
+are larger (second table). The step is that of a periodic box, 0.9 of the lesser of d/c_p and 2/omega_max. Bodies with
+free corners step less far with node rotations, about half of d/c_p, and lie between the two tables; with the fit they
+step as far.
 """
     for kind, heading in ((1, "At the automatic step"), (0, "In space alone (steps much smaller than the limit)")):
         text += f"\n## {heading}\n\n| springs | " + " | ".join(f"nu = {nu:g}" for nu in RATIOS) + " |\n"
