@@ -7,6 +7,7 @@ install(TARGETS koshi_app RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
 install(DIRECTORY include/koshi TYPE INCLUDE)
 install(FILES README.md README.ja.md LICENSE CITATION.cff CHANGELOG.md TYPE DOC)
 install(FILES LICENSE TYPE DOC RENAME copyright)
+install(DIRECTORY examples TYPE DOC PATTERN __pycache__ EXCLUDE)
 
 # Man page, from the program's own help, and completion.
 install(FILES apps/koshi/koshi.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME koshi)

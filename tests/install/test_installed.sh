@@ -7,6 +7,7 @@ root=$1 work=$2 case=$3 python=$4 report=$5
 
 modules=lib/python3/dist-packages
 files="bin/koshi lib/libkoshi.a include/koshi/error.h lib/cmake/koshi/koshiConfig.cmake share/doc/koshi/copyright
+  share/doc/koshi/examples/README.md share/doc/koshi/examples/05_torsion_bar/case.toml
   share/man/man1/koshi.1.gz share/bash-completion/completions/koshi"
 [ -z "$python" ] || files+=" $modules/koshi/__init__.py $modules/koshi/_koshi.pyi $modules/koshi/py.typed"
 [ "$report" != ON ] || files+=" share/koshi/report.html"
