@@ -70,7 +70,8 @@ std::vector<std::string> history_columns(const model::Model& model) {
       columns.push_back(fmt::format("{}.{}.{} [{}]", probe.definition.name, mechanics::name_of(quantity), component,
                                     mechanics::unit_of(quantity)));
   }
-  for (const char* energy : {"elastic energy [J]", "kinetic energy [J]", "unbalanced-force ratio [1]"})
+  for (const char* energy :
+       {"elastic energy [J]", "kinetic energy [J]", "leapfrog energy [J]", "unbalanced-force ratio [1]"})
     columns.emplace_back(energy);
   return columns;
 }
@@ -79,7 +80,8 @@ std::vector<double> history_row(double time, const mechanics::Measurement& measu
   std::vector<double> row{time};
   for (const mechanics::ProbeValue& value : measurement.probes) row.insert(row.end(), value.begin(), value.end());
   const mechanics::Balance& balance = measurement.balance;
-  row.insert(row.end(), {balance.elastic_energy, balance.kinetic_energy, balance.unbalanced_ratio()});
+  row.insert(row.end(),
+             {balance.elastic_energy, balance.kinetic_energy, balance.leapfrog_energy, balance.unbalanced_ratio()});
   return row;
 }
 

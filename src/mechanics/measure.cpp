@@ -64,11 +64,12 @@ bool needs_reactions(const model::Probe& probe) {
 }
 
 struct Sums {
-  ExactSum elastic, kinetic, residual, reference;
+  ExactSum elastic, kinetic, leapfrog, residual, reference;
 
   Balance total(const Communicator& communicator) {
-    for (ExactSum* s : {&elastic, &kinetic, &residual, &reference}) s->sum_ranks(communicator);
-    return {elastic.value(), kinetic.value(), std::sqrt(residual.value()), std::sqrt(reference.value())};
+    for (ExactSum* s : {&elastic, &kinetic, &leapfrog, &residual, &reference}) s->sum_ranks(communicator);
+    return {elastic.value(), kinetic.value(), leapfrog.value(), std::sqrt(residual.value()),
+            std::sqrt(reference.value())};
   }
 };
 
@@ -81,21 +82,24 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
   const double d = model.lattice.grid.d;
   for (std::int64_t i = 0; i < model.layout().owned()[0]; ++i) {
     if (model.inertia.component(0)[n + i] == 0) continue;
-    double elastic = 0, kinetic = 0, residual = 0, reference = 0;
+    double elastic = 0, kinetic = 0, leapfrog = 0, residual = 0, reference = 0;
     for (int c = 0; c < components; ++c) {
       const double force = internal[c][i] + external[c][i];
       const double inertia = model.inertia.component(c < 3 ? 0 : 1)[n + i];
       const double lever = c < 3 ? 1 : d;
       const bool prescribed = mask[static_cast<std::size_t>(i)] >> c & 1;
-      const double v = state.velocity.component(c)[n + i] + (prescribed ? 0 : 0.5 * dt * force / inertia);
+      const double gain = prescribed ? 0 : 0.5 * dt * force / inertia;
+      const double v = state.velocity.component(c)[n + i] + gain;
       elastic -= 0.5 * state.displacement.component(c)[n + i] * internal[c][i];
       kinetic += 0.5 * inertia * v * v;
+      leapfrog += 0.5 * inertia * (v - gain) * (v + gain);
       const double square = force * force / (lever * lever);
       (prescribed ? reference : residual) += square;
       reference += external[c][i] * external[c][i] / (lever * lever);
     }
     sums.elastic += elastic;
     sums.kinetic += kinetic;
+    sums.leapfrog += elastic + leapfrog;
     sums.residual += residual;
     sums.reference += reference;
   }

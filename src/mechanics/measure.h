@@ -13,8 +13,10 @@ namespace koshi::mechanics {
 struct Balance {
   double elastic_energy = 0;  ///< [J], -u.F/2
   double kinetic_energy = 0;  ///< [J], at the time of the displacements
-  double residual = 0;        ///< [N], root of the sum of squares of forces (and moments/d) on free components
-  double reference = 0;       ///< [N], the same of loads and reactions
+  /// [J], what central differences conserve instead of the sum of both, see docs/theory/04_motion.md (4.1).
+  double leapfrog_energy = 0;
+  double residual = 0;   ///< [N], root of the sum of squares of forces (and moments/d) on free components
+  double reference = 0;  ///< [N], the same of loads and reactions
 
   /// Unbalanced-force ratio, residual / reference; 0 for a body without any force.
   double unbalanced_ratio() const { return residual == 0 ? 0 : reference > 0 ? residual / reference : 1; }

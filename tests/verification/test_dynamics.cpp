@@ -8,6 +8,7 @@
 #include <random>
 
 #include "mechanics/force_kernel.h"
+#include "mechanics/measure.h"
 #include "support/cases.h"
 
 namespace koshi {
@@ -123,6 +124,8 @@ TEST_P(Motion, ConservesEnergyOverAHundredThousandSteps) {
   EXPECT_EQ(flight.state.step, 100'001);
   EXPECT_NEAR(lowest / first, 1, 1e-11);
   EXPECT_NEAR(highest / first, 1, 1e-11);
+  mechanics::Meter meter(flight.model, kernel);
+  EXPECT_NEAR(meter.balance(flight.state, 0.005).leapfrog_energy / first, 1, 1e-11);
   EXPECT_LT(largest_swing, 0.5);
   EXPECT_GT(largest_swing, 1e-3);  // the step is coarse enough for the two energies to differ
   EXPECT_GT(elastic_part, 0.1);    // and the body does deform
