@@ -13,6 +13,11 @@ bool same_letter(char a, char b) {
   return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
 }
 
+bool starts_alike(std::string_view a, std::string_view b, std::size_t length) {
+  return a.size() >= length &&
+         std::equal(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(length), b.begin(), same_letter);
+}
+
 // Levenshtein distance, one row of the table at a time.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
@@ -51,6 +56,9 @@ std::optional<std::string> nearest(std::string_view word, std::span<const std::s
     best = &name;
     least = distance;
   }
+  // Another ending, such as a plural: most of the name is there.
+  for (const auto& name : known)
+    if (best == nullptr && name.size() >= 6 && starts_alike(word, name, name.size() * 3 / 4)) best = &name;
   if (best == nullptr) return std::nullopt;
   return *best;
 }

@@ -8,7 +8,8 @@
 
 namespace koshi {
 
-/// The known name that is at most a few typing errors away; letter case counts nothing.
+/// The known name that is at most a few typing errors away, or starts alike and ends otherwise ("boundaries"); letter
+/// case counts nothing.
 std::optional<std::string> nearest(std::string_view word, std::span<const std::string> known);
 
 /// `did you mean "spacing"?` for the nearest known name, else `known: "cell", "spacing"`; with nothing known, "none is

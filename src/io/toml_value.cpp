@@ -74,6 +74,7 @@ std::string syntax_message(std::string_view description) {
   std::string hint;
   if (mentions("determine value type") || mentions("comment or whitespace"))
     hint = "; text and quantities with a unit need quotes, such as \"0.2 cm\"";
+  if (mentions("unescaped control characters")) hint = "; a text ends with a quote on its own line";
   if (mentions("cannot redefine")) hint = "; every key and table may stand once";
   return fmt::format("cannot read {}{}{}", usual ? "" : "the file: ", description, hint);
 }

@@ -215,6 +215,9 @@ double parse_quantity(std::string_view text, Dimension dimension, const Place& p
   const std::string_view unit_text = trimmed(rest.substr(number_text.size()));
   if (unit_text.empty()) return number;
 
+  if (unit_text.size() > 1 && unit_text[0] == ',' && is_digit(unit_text[1]))
+    fail(fmt::format("\"{}\" has a decimal comma; write a point, as in {}.{}", text, number_text, unit_text.substr(1)));
+
   const Unit unit = parse_unit(unit_text);
   if (unit == nullptr)
     fail(fmt::format("unknown unit \"{}\" in \"{}\"{}", unit_text, text, meant_unit(unit_text, dimension)));

@@ -15,7 +15,7 @@ TEST(BrokenInput, Syntax) {
        R"(1:9: error: cannot read value: could not determine value type; text and quantities with a unit need quotes, such as "0.2 cm")"},
       {R"(title = "base")", R"(title = "base)",
        "1:14: error: cannot read string: unescaped control characters other than TAB (U+0009) are explicitly "
-       "prohibited"},
+       "prohibited; a text ends with a quote on its own line"},
       {"[lattice]", "[lattice", "2:9: error: cannot read table header: expected ']', saw '\\n'"},
       {R"(cell = "cube-III")", R"(cell = "cube-III"
 cell = "cube-I")",
@@ -48,7 +48,7 @@ face.a = 1)",
        "1:206: error: more than 100 dots in a row; keys have a few"},
       {R"(every = "1 s")", R"(every = "1 s)",
        "36:13: error: cannot read string: unescaped control characters other than TAB (U+0009) are explicitly "
-       "prohibited"},
+       "prohibited; a text ends with a quote on its own line"},
   };
   ASSERT_EQ(inputs.size(), 13u);
   expect_messages(inputs);
@@ -58,6 +58,8 @@ face.a = 1)",
 TEST(BrokenInput, Keys) {
   const std::vector<Broken> inputs{
       {"[lattice]", "[latice]", R"(2:2: error: unknown key "latice" in the input; did you mean "lattice"?)"},
+      {"[[boundary]]\nname = \"bottom\"", "[[boundaries]]\nname = \"bottom\"",
+       R"(17:3: error: unknown key "boundaries" in the input; did you mean "boundary"?)"},
       {R"(spacing = "0.2 cm")", R"(spacin = "0.2 cm")",
        R"(4:1: error: unknown key "spacin" in [lattice]; did you mean "spacing"?)"},
       {R"(spacing = "0.2 cm")", R"(spacing = "0.2 cm"
@@ -145,7 +147,7 @@ position = [0, 0, 0]
 )",
        R"(7:1: error: unknown key "position" in [body]; known: "origin", "size", "material", "periodic", "image", "materials")"},
   };
-  ASSERT_EQ(inputs.size(), 25u);
+  ASSERT_EQ(inputs.size(), 26u);
   expect_messages(inputs);
 }
 

@@ -92,6 +92,9 @@ TEST(Units, UnknownUnit) {
   EXPECT_EQ(
       message("3 furlongz", Dimension::length),
       "unknown unit \"furlongz\" in \"3 furlongz\"; expected a length such as \"0.2 cm\" (a bare number is in m)");
+  EXPECT_EQ(message("2,5 mm", Dimension::length),
+            "\"2,5 mm\" has a decimal comma; write a point, as in 2.5 mm; expected a length such as \"0.2 cm\" (a bare "
+            "number is in m)");
   // UDUNITS itself would take these for lengths, times and powers.
   for (const char* text : {"1 000 m", "2 2 m", "1 m 2", "5 s since 2000-01-01", "1 m @ 3", "1 lg(re 1 mW)", "1 m^0.5",
                            "1 ((((m", "1 cm/", "1 m^400", "1 -", "1 m;s", "0x10 m"})
