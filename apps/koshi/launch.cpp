@@ -1,15 +1,67 @@
 #include "launch.h"
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <csignal>
 #include <cstdlib>
 #include <cstring>
+#include <iostream>
 #include <thread>
 
 #include "koshi/error.h"
 
 namespace koshi::app {
+namespace {
+
+volatile std::sig_atomic_t launcher = 0;  // process number of mpiexec
+volatile std::sig_atomic_t interrupts = 0;
+volatile std::sig_atomic_t asked_to_stop = 0;
+
+// mpiexec ends its ranks a second after a SIGINT or SIGTERM, whatever they are writing. It passes SIGUSR1 on to them,
+// which asks a run to stop after a checkpoint. A second Ctrl-C means it.
+void pass_on(int signal) {
+  asked_to_stop = 1;
+  if (signal == SIGINT) interrupts = interrupts + 1;
+  kill(launcher, interrupts > 1 ? SIGTERM : SIGUSR1);
+}
+
+void set_environment(int ranks) {
+  // Open MPI refuses to run as root and on fewer cores than ranks unless told; both are the user's decision here.
+  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
+  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
+  setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
+  setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
+  // What went wrong is said by Koshi.
+  setenv("OMPI_MCA_orte_execute_quiet", "1", 0);
+  // Ranks without a core of their own must not spin while they wait for the others.
+  if (static_cast<unsigned>(ranks) > std::thread::hardware_concurrency())
+    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
+  // The launcher passes on what the ranks print; the live line still works if this process has a terminal.
+  if (isatty(STDERR_FILENO)) setenv("KOSHI_PROGRESS", "live", 0);
+}
+
+// Becomes mpiexec: out of reach of the terminal's Ctrl-C, and ended when this program is.
+[[noreturn]] void become_launcher(std::vector<std::string>& command) {
+  setpgid(0, 0);
+  prctl(PR_SET_PDEATHSIG, SIGTERM);
+  const int nothing = open("/dev/null", O_RDONLY);
+  if (nothing >= 0) dup2(nothing, STDIN_FILENO);
+  std::vector<char*> pointers;
+  for (std::string& argument : command) pointers.push_back(argument.data());
+  pointers.push_back(nullptr);
+  execvp("mpiexec", pointers.data());
+  std::cerr << fmt::format(
+      "--ranks: error: cannot start mpiexec: {}; install an MPI launcher (Debian: openmpi-bin), or leave --ranks out\n",
+      std::strerror(errno));
+  std::_Exit(2);
+}
+
+}  // namespace
 
 bool is_launched() {
   // Set by Open MPI, and by MPICH and its relatives.
@@ -17,29 +69,29 @@ bool is_launched() {
 }
 
 void launch(int ranks, const std::vector<std::string>& arguments) {
-  // Open MPI refuses to run as root and on fewer cores than ranks unless told; both are the user's decision here.
-  setenv("OMPI_ALLOW_RUN_AS_ROOT", "1", 0);
-  setenv("OMPI_ALLOW_RUN_AS_ROOT_CONFIRM", "1", 0);
-  setenv("OMPI_MCA_rmaps_base_oversubscribe", "1", 0);
-  setenv("OMPI_MCA_btl_vader_single_copy_mechanism", "none", 0);
-  // Ranks without a core of their own must not spin while they wait for the others.
-  if (static_cast<unsigned>(ranks) > std::thread::hardware_concurrency())
-    setenv("OMPI_MCA_mpi_yield_when_idle", "1", 0);
-  // The rank that fails says why; the launcher's own words about exit codes would bury it.
-  setenv("OMPI_MCA_orte_execute_quiet", "1", 0);
-  // The launcher passes on what the ranks print; the live line still works if this process has a terminal.
-  if (isatty(STDERR_FILENO)) setenv("KOSHI_PROGRESS", "live", 0);
+  set_environment(ranks);
   std::vector<std::string> command{"mpiexec", "-n", std::to_string(ranks), "/proc/self/exe"};
   std::vector<char> self(4096);
   const ssize_t length = readlink("/proc/self/exe", self.data(), self.size());
   if (length > 0) command.back().assign(self.data(), static_cast<std::size_t>(length));
   command.insert(command.end(), arguments.begin() + 1, arguments.end());
-  std::vector<char*> pointers;
-  for (std::string& argument : command) pointers.push_back(argument.data());
-  pointers.push_back(nullptr);
-  execvp("mpiexec", pointers.data());
-  throw InputError(Place{"--ranks"}, std::string("cannot start mpiexec: ") + std::strerror(errno) +
-                                         "; install an MPI launcher (Debian: openmpi-bin), or leave --ranks out");
+
+  const pid_t child = fork();
+  if (child < 0) throw RunError(fmt::format("cannot start mpiexec: {}", std::strerror(errno)));
+  if (child == 0) become_launcher(command);
+  launcher = child;
+  std::signal(SIGINT, pass_on);
+  std::signal(SIGTERM, pass_on);
+  int status = 0;
+  while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  // mpiexec ends with the code of the first rank that failed, 128 and the signal if one was killed.
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  if (code > 128)
+    std::cerr << (asked_to_stop ? std::string("error: ended by a signal before a checkpoint was written\n")
+                                : fmt::format("error: a process of the run was ended by signal {} ({})\n", code - 128,
+                                              strsignal(code - 128)));
+  std::exit(code > 128 ? 1 : code);
 }
 
 }  // namespace koshi::app

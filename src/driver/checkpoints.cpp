@@ -1,6 +1,6 @@
 #include "driver/checkpoints.h"
 
-#include <chrono>
+#include <array>
 #include <csignal>
 
 #include "base/progress.h"
@@ -12,7 +12,17 @@ namespace {
 
 volatile std::sig_atomic_t stop_signal = 0;
 
-void request_stop(int) { stop_signal = 1; }
+// Asks for a stop after a checkpoint; who presses Ctrl-C twice does not want to wait for it. SIGUSR1 is what launchers
+// pass on to their ranks.
+void request_stop(int signal) {
+  if (stop_signal == SIGINT && signal == SIGINT) {
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);
+  }
+  stop_signal = signal;
+}
+
+constexpr std::array stop_signals{SIGINT, SIGTERM, SIGUSR1};
 
 // What must be equal for a run to go on: everything but the output and how long to run.
 std::string case_text(model::Definition definition) {
@@ -35,20 +45,21 @@ Checkpoints::Checkpoints(const model::Model& model, std::filesystem::path direct
       case_text_(case_text(model.definition)),
       last_wall_(steady_seconds()) {
   stop_signal = 0;
-  std::signal(SIGINT, request_stop);
-  std::signal(SIGTERM, request_stop);
+  // An equilibrium is sought in one go, without checkpoints: a signal ends it at once.
+  if (model.definition.analysis.type != model::AnalysisDefinition::Type::statics)
+    for (const int signal : stop_signals) std::signal(signal, request_stop);
 }
 
 Checkpoints::~Checkpoints() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int signal : stop_signals) std::signal(signal, SIG_DFL);
 }
 
-void Checkpoints::restore(const std::filesystem::path& file, model::State& state) const {
+void Checkpoints::restore(const std::filesystem::path& file, model::State& state) {
   const auto fields = extra_fields(state);
   const io::CheckpointInfo info = io::read_checkpoint(file, model_, case_text_, state, fields);
   state.time = info.time;
   state.step = info.step;
+  last_ = file;
 }
 
 bool Checkpoints::stop_requested() const { return model_.communicator.any(stop_signal != 0); }
@@ -65,8 +76,15 @@ bool Checkpoints::poll(model::State& state) {
   return stop;
 }
 
+std::string Checkpoints::remedy() const {
+  std::error_code ignored;
+  if (last_.empty() || !std::filesystem::exists(last_, ignored)) return "";
+  return "; the last checkpoint is whole: --restart " + last_.string();
+}
+
 void Checkpoints::write(model::State& state) {
   write_to(directory_, state);
+  last_ = directory_ / "checkpoint.h5";
   last_time_ = state.time;
   last_wall_ = steady_seconds();
 }

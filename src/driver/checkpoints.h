@@ -7,8 +7,8 @@
 
 namespace koshi::driver {
 
-/// Checkpoints of one run in its output directory. From its construction to its end SIGINT and SIGTERM ask the run to
-/// stop after a last checkpoint instead of ending the process.
+/// Checkpoints of one run in its output directory. From its construction to its end SIGINT, SIGTERM and SIGUSR1 ask
+/// a run in time to stop after a last checkpoint instead of ending the process.
 class Checkpoints {
  public:
   Checkpoints(const model::Model& model, std::filesystem::path directory);
@@ -17,12 +17,14 @@ class Checkpoints {
   Checkpoints& operator=(const Checkpoints&) = delete;
 
   /// Goes on from a checkpoint of the same case (collective).
-  void restore(const std::filesystem::path& file, model::State& state) const;
+  void restore(const std::filesystem::path& file, model::State& state);
   /// Writes one if it is due, by simulated or wall time, or because a signal came; true: stop the run (collective).
   bool poll(model::State& state);
   /// Whether a signal has asked the run to stop, on any rank (collective).
   bool stop_requested() const;
   void write(model::State& state);
+  /// What to do after a failure: "; the last checkpoint is whole: --restart FILE", empty if there is none.
+  std::string remedy() const;
   /// Writes the state of a diverged run beside, where it replaces no good checkpoint.
   std::filesystem::path write_diverged(model::State& state);
 
@@ -32,6 +34,7 @@ class Checkpoints {
   const model::Model& model_;
   std::filesystem::path directory_;
   std::string case_text_;
+  std::filesystem::path last_;            ///< that this run has written or started from
   double last_time_ = 0, last_wall_ = 0;  ///< of the last checkpoint [s]
 };
 

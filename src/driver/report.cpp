@@ -124,6 +124,8 @@ void write_report_page(const fs::path& file, const nlohmann::ordered_json& data)
   io::replace_file(file, io::filled_template(io::read_file(find_template()), data));
 }
 
+void check_report_template() { find_template(); }
+
 void write_report(const fs::path& directory) { write_report_page(directory / "report.html", report_data(directory)); }
 
 }  // namespace koshi::driver

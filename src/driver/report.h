@@ -14,6 +14,9 @@ nlohmann::ordered_json report_data(const std::filesystem::path& directory);
 /// or the file cannot be written.
 void write_report_page(const std::filesystem::path& file, const nlohmann::ordered_json& data);
 
+/// Throws RunError when the page's template is not installed.
+void check_report_template();
+
 /// Both: `report.html` in the output directory.
 void write_report(const std::filesystem::path& directory);
 

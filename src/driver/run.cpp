@@ -28,6 +28,9 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   const Communicator& communicator = model.communicator;
   // Everything that can be wrong with the input is found before the output directory is made; the search for the stable
   // step comes before the state takes its memory, since it needs as much.
+  collectively(communicator, [&] {
+    if (definition.output.report && communicator.is_root()) check_report_template();
+  });
   const std::vector<std::string>& warnings = simulation.prepare();
   if (!options.quiet && communicator.is_root())
     for (const std::string& warning : warnings) log_warning(warning);
@@ -62,10 +65,15 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   };
   observer.poll = [&](model::State& at) { return checkpoints.poll(at) || (outer.poll && outer.poll(at)); };
   observer.diverged = [&](model::State& at) {
-    return fmt::format("; the state is kept in {}", checkpoints.write_diverged(at).string());
+    return fmt::format("; the diverged state is kept in {}", checkpoints.write_diverged(at).string());
   };
 
-  Outcome outcome = simulation.run(observer, options.petsc_options);
+  Outcome outcome;
+  try {
+    outcome = simulation.run(observer, options.petsc_options);
+  } catch (const RunError& error) {
+    throw RunError(error.what() + checkpoints.remedy());
+  }
   progress.finish("");
   if (outcome.solution && communicator.is_root())
     for (const std::string& option : outcome.solution->unused_options)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
 
 #include "base/collective.h"
 #include "driver/schedule.h"
@@ -117,8 +118,9 @@ void Simulation::check_divergence(const mechanics::Balance& balance, const Obser
   Int3 where{};
   lattice::for_each_owned(model_->layout(), [&](auto i, auto j, auto k, auto n) {
     for (int c = 0; c < 3; ++c) {
-      const double u = std::abs(state_->displacement.component(c)[n]);
-      if (u <= largest) continue;  // false for a NaN
+      double u = std::abs(state_->displacement.component(c)[n]);
+      if (std::isnan(u)) u = std::numeric_limits<double>::infinity();
+      if (u <= largest) continue;
       largest = u;
       where = model_->layout().global({i, j, k});
     }
@@ -135,11 +137,12 @@ void Simulation::check_divergence(const mechanics::Balance& balance, const Obser
   const double dt = state_->step > 0 ? state_->time / static_cast<double>(state_->step) : 0;
   const lattice::Grid& grid = model_->lattice.grid;
   const auto index = [&](std::size_t a) { return std::llround((at[a] - grid.origin[a]) / grid.d); };
+  const std::string moved = std::isfinite(at[3]) ? fmt::format("has moved {:.3g} m", at[3]) : "is nowhere any more";
   const std::string kept = observer.diverged ? observer.diverged(*state_) : "";
   throw RunError(fmt::format(
       "the run diverged at or before step {} (t = {:.6g} s): node ({}, {}, {}) at ({:.4g}, {:.4g}, {:.4g}) m "
-      "has moved {:.3g} m; use a smaller time_step than {:.3g} s (or \"auto\"), or check loads and units{}",
-      state_->step, state_->time, index(0), index(1), index(2), at[0], at[1], at[2], at[3], dt, kept));
+      "{}; use a smaller time_step than {:.3g} s (or \"auto\"), or check loads and units{}",
+      state_->step, state_->time, index(0), index(1), index(2), at[0], at[1], at[2], moved, dt, kept));
 }
 
 Outcome Simulation::run_explicit(const Observer& observer) {

@@ -138,13 +138,14 @@ class Writer {
 void rotate(const fs::path& directory) {
   const fs::path current = directory / "checkpoint.h5", previous = directory / "checkpoint.previous.h5";
   std::error_code error;
-  if (fs::exists(current)) {
-    fs::remove(previous);
+  if (fs::exists(current, error)) {
+    fs::remove(previous, error);
     fs::create_hard_link(current, previous, error);
     // A file system without links: for a moment only the previous one is there.
-    if (error) fs::rename(current, previous);
+    if (error) fs::rename(current, previous, error);
   }
-  fs::rename(part_of(current), current);
+  fs::rename(part_of(current), current, error);
+  if (error) throw RunError(fmt::format("cannot write {}: {}", current.native(), error.message()));
   flush_to_disk(directory);
 }
 

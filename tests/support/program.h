@@ -28,9 +28,10 @@ inline std::string read_file(const std::filesystem::path& file) {
 inline void write_file(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
 
 /// Runs `koshi ARGUMENTS` through the shell in a directory.
-inline Ended koshi(const std::filesystem::path& directory, const std::string& arguments) {
+inline Ended koshi(const std::filesystem::path& directory, const std::string& arguments,
+                   const std::string& program = KOSHI_PROGRAM) {
   const auto out = directory / "stdout.txt", err = directory / "stderr.txt";
-  const std::string command = "cd '" + directory.native() + "' && '" KOSHI_PROGRAM "' " + arguments + " >'" +
+  const std::string command = "cd '" + directory.native() + "' && '" + program + "' " + arguments + " >'" +
                               out.native() + "' 2>'" + err.native() + "' </dev/null";
   const int status = std::system(command.c_str());
   EXPECT_TRUE(WIFEXITED(status)) << command;

@@ -1,0 +1,188 @@
+// Runs that fail say what is left and how to go on; runs that go on from a checkpoint or an equilibrium.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include <nlohmann/json.hpp>
+
+#include "support/program.h"
+#include "support/temporary_directory.h"
+
+namespace koshi {
+namespace {
+
+using test::Ended;
+using testing::HasSubstr;
+using testing::Not;
+using testing::StartsWith;
+namespace fs = std::filesystem;
+
+// A bar of 40 cells along x whose material does not contract, pulled at its end. Springs without rotations stretch
+// evenly under it up to the end.
+const std::string bar = R"([lattice]
+spacing = "1 cm"
+kinematics = "least-squares"
+[body]
+size = ["40 cm", "1 cm", "1 cm"]
+material = "steel"
+[material.steel]
+youngs_modulus = "200 GPa"
+poissons_ratio = 0
+density = "8000 kg/m^3"
+[[boundary]]
+name = "wall"
+face = "x-min"
+fix = ["x", "y", "z"]
+[[load]]
+name = "pull"
+face = "x-max"
+force = ["2 kN", "0 N", "0 N"]
+[[probe]]
+name = "tip"
+face = "x-max"
+)";
+constexpr double length = 0.4, speed = 5000;  // c = sqrt(E / rho)
+const std::string moving = " --set analysis.type=dynamic --set analysis.duration=5e-4 --quiet";
+
+class Continuation : public testing::Test {
+ protected:
+  Continuation() { test::write_file(directory_ / "bar.toml", bar); }
+  Ended koshi(const std::string& arguments) const { return test::koshi(directory_.path(), arguments); }
+  // Columns of a history by their place in the header.
+  std::vector<std::vector<double>> history(const fs::path& output) const {
+    std::istringstream lines(test::read_file(directory_ / output / "history.csv"));
+    std::string line;
+    std::getline(lines, line);
+    std::vector<std::vector<double>> columns;
+    while (std::getline(lines, line)) {
+      std::istringstream fields(line);
+      std::string field;
+      for (std::size_t c = 0; std::getline(fields, field, ','); ++c) {
+        if (c == columns.size()) columns.emplace_back();
+        columns[c].push_back(std::stod(field));
+      }
+    }
+    return columns;
+  }
+
+  test::TemporaryDirectory directory_;
+};
+
+// At rest the tip stands at u = F L / (E A). Released, it moves to -u and back at constant speed: a triangle of period
+// 4 L / c. The discrete bar's lowest frequency is (2 c / d) sin(pi d / 4 L), lower by 6e-5.
+TEST_F(Continuation, AReleasedBarSwingsAboutZero) {
+  ASSERT_EQ(koshi("run bar.toml --out held --quiet").code, 0);
+  const Ended released = koshi(
+      "run bar.toml --out released --set load=[] --set analysis.start_from=held --set output.history_every=1e-6"
+      " --set analysis.type=dynamic --set analysis.duration=1.6e-3 --quiet");
+  ASSERT_EQ(released.code, 0) << released.error;
+  const auto columns = history("released");
+  const std::vector<double>&time = columns[0], &u = columns[1];
+  ASSERT_GT(time.size(), 800U);
+  const double still = 2000 * length / (200e9 * 1e-4), period = 4 * length / speed;
+  EXPECT_NEAR(u[0], still, 1e-6 * still);
+  std::vector<double> crossings;
+  for (std::size_t s = 1; s < u.size(); ++s)
+    if ((u[s] > 0) != (u[s - 1] > 0))
+      crossings.push_back(time[s - 1] + (time[s] - time[s - 1]) * u[s - 1] / (u[s - 1] - u[s]));
+  // Five periods: at a quarter, three quarters and so on.
+  ASSERT_EQ(crossings.size(), 10U);
+  for (std::size_t n = 0; n < crossings.size(); ++n)
+    EXPECT_NEAR(crossings[n] / period, 0.25 + 0.5 * static_cast<double>(n), 0.01);
+  const auto [least, most] = std::minmax_element(u.begin(), u.end());
+  // Its corners ripple by a few per cent, as a lattice's waves of different lengths travel at different speeds.
+  EXPECT_NEAR(*least / still, -1, 0.06);
+  EXPECT_NEAR(*most / still, 1, 0.06);
+}
+
+TEST_F(Continuation, AStepAboveTheLimitIsRefusedWithTheLimit) {
+  const Ended ended = koshi("run bar.toml --out new --set analysis.time_step=1e-3" + moving);
+  EXPECT_EQ(ended.code, 2);
+  const std::string words = "is above the stable limit ";
+  const std::size_t at = ended.error.find(words);
+  ASSERT_NE(at, std::string::npos) << ended.error;
+  const double limit = std::stod(ended.error.substr(at + words.size()));
+  // The limit is printed with four digits; omega_max of a bar one cell thick is above c_p / d.
+  EXPECT_GT(limit, 0.01 / speed / 10);
+  EXPECT_LT(limit, 0.01 / speed);
+  const auto run = [&](double step) {
+    return koshi("run bar.toml --out new --set analysis.time_step=" + std::to_string(1e9 * step) + "e-9" + moving).code;
+  };
+  EXPECT_EQ(run(1.002 * limit), 2);
+  EXPECT_EQ(run(0.998 * limit), 0);
+}
+
+// On several ranks the reason is told once, and not drowned by what the launcher has to say.
+TEST_F(Continuation, ADivergedRunNamesNodeAndCheckpoints) {
+  std::vector<std::string> messages;
+  for (const char* ranks : {"1", "2"}) {
+    const Ended ended = koshi(std::string("run bar.toml --out wild --set analysis.time_step=2.2e-6 --set "
+                                          "analysis.allow_unstable_step=true --set output.checkpoint_every=1e-5 "
+                                          "--ranks ") +
+                              ranks + moving);
+    EXPECT_EQ(ended.code, 1);
+    EXPECT_THAT(ended.error, StartsWith("error: the run diverged at or before step "));
+    EXPECT_THAT(ended.error, HasSubstr(": node ("));
+    EXPECT_THAT(ended.error, HasSubstr("; the diverged state is kept in wild/diverged/checkpoint.h5; the last "
+                                       "checkpoint is whole: --restart wild/checkpoint.h5\n"));
+    EXPECT_EQ(std::ranges::count(ended.error, '\n'), 1) << ended.error;
+    for (const char* file : {"wild/diverged/checkpoint.h5", "wild/checkpoint.h5"})
+      EXPECT_TRUE(fs::exists(directory_ / file)) << file;
+    messages.push_back(ended.error);
+    fs::remove_all(directory_ / "wild");
+  }
+  EXPECT_EQ(messages[0], messages[1]);
+}
+
+// A checkpoint that cannot be written ends the run; the older one stays, is named, and leads to the same end.
+TEST_F(Continuation, AFailedCheckpointLeavesTheOlderOne) {
+  const std::string run = "run bar.toml --set output.checkpoint_every=1e-4" + moving;
+  ASSERT_EQ(koshi(run + " --out whole").code, 0);
+  // As if that run had ended before its last checkpoint.
+  fs::copy(directory_ / "whole", directory_ / "out", fs::copy_options::recursive);
+  fs::rename(directory_ / "out/checkpoint.previous.h5", directory_ / "out/checkpoint.h5");
+  const std::string older = test::read_file(directory_ / "out/checkpoint.h5");
+  EXPECT_FALSE(older == test::read_file(directory_ / "whole/checkpoint.h5"));
+  fs::create_directory(directory_ / "out/checkpoint.h5.part");
+  const Ended ended = koshi(run + " --out out --restart out/checkpoint.h5");
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_EQ(ended.error,
+            "error: cannot write out/checkpoint.h5.part: Is a directory; the last checkpoint is whole: "
+            "--restart out/checkpoint.h5\n");
+  EXPECT_TRUE(test::read_file(directory_ / "out/checkpoint.h5") == older);
+  fs::remove(directory_ / "out/checkpoint.h5.part");
+  EXPECT_EQ(koshi(run + " --out out --restart out/checkpoint.h5").code, 0);
+  for (const char* file : {"history.csv", "checkpoint.h5"})
+    EXPECT_TRUE(test::read_file(directory_ / "out" / file) == test::read_file(directory_ / "whole" / file)) << file;
+
+  // One that is damaged later is refused, and the one before it leads to the same end as well.
+  const fs::path last = directory_ / "out/checkpoint.h5";
+  fs::resize_file(last, fs::file_size(last) - 1);
+  const Ended damaged = koshi(run + " --out out --restart out");
+  EXPECT_EQ(damaged.code, 2);
+  EXPECT_THAT(damaged.error, HasSubstr(" is cut short: "));
+  EXPECT_THAT(damaged.error, HasSubstr("; try out/checkpoint.previous.h5\n"));
+  EXPECT_EQ(koshi(run + " --out out --restart out/checkpoint.previous.h5").code, 0);
+  EXPECT_TRUE(test::read_file(last) == test::read_file(directory_ / "whole/checkpoint.h5"));
+
+  const Ended other = koshi(run + " --out out --restart out --set material.steel.poissons_ratio=0.1");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.error, HasSubstr("is of another case: in [material.steel] `poissons_ratio = 0.0` there, "
+                                     "`poissons_ratio = 0.1` here"));
+}
+
+// The page is asked for at the end: whether there is one is known at the start.
+TEST_F(Continuation, AReportWithoutItsPageIsRefusedAtTheStart) {
+  const fs::path program = directory_ / "koshi";  // away from the page beside the program
+  fs::copy_file(KOSHI_PROGRAM, program);
+  const Ended ended =
+      test::koshi(directory_.path(), "run bar.toml --out new --set output.report=true" + moving, program.native());
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_THAT(ended.error, StartsWith("error: the template of reports is not installed"));
+  EXPECT_FALSE(fs::exists(directory_ / "new"));
+}
+
+}  // namespace
+}  // namespace koshi
