@@ -4,6 +4,8 @@
 
 #include <cstring>
 
+#include "base/poison.h"
+
 namespace koshi::lattice {
 namespace {
 
@@ -106,6 +108,7 @@ void Halo::begin_bytes(std::byte* origin, int components, const Strides& strides
     const std::size_t bytes = link.node_count() * static_cast<std::size_t>(components * element);
     link.send.resize(bytes);
     link.receive.resize(bytes);
+    poison(link.receive.data(), bytes);
     MPI_Irecv(link.receive.data(), static_cast<int>(bytes), MPI_BYTE, link.rank, link.receive_tag, comm,
               &h.requests.emplace_back());
   }

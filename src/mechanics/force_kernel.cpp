@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "base/poison.h"
 #include "lattice/halo.h"
 #include "mechanics/plain_fit.h"
 #include "mechanics/stencil.h"
@@ -105,6 +106,7 @@ T* const* ForceKernel<T>::row(const lattice::Field<T>& u, std::int64_t j, std::i
   row.pitch = layout.pitch();
   row.plane = layout.plane();
 
+  for (int c = 0; c < components_; ++c) poison(force_[c], static_cast<std::size_t>(layout.owned()[0]) * sizeof(T));
   // In ascending order, since a segment of bonds writes whole vectors and may spill into the next segment.
   const std::int64_t at = j + layout.owned()[1] * k;
   for (std::int64_t s = row_segments_[at]; s < row_segments_[at + 1]; ++s) {
@@ -136,6 +138,15 @@ void ForceKernel<T>::write_row(const lattice::Field<T>& u, std::int64_t j, std::
 }
 
 template <class T>
+void ForceKernel<T>::poison_owned(lattice::Field<T>& force) const {
+  const lattice::Layout& layout = lattice_.layout;
+  for (int c = 0; c < components_; ++c)
+    for (std::int64_t k = 0; k < layout.owned()[2]; ++k)
+      for (std::int64_t j = 0; j < layout.owned()[1]; ++j)
+        poison(force.component(c) + layout.index(0, j, k), static_cast<std::size_t>(layout.owned()[0]) * sizeof(T));
+}
+
+template <class T>
 void ForceKernel<T>::apply(lattice::Field<T>& u, lattice::Field<T>& force) {
   const Int3& owned = lattice_.layout.owned();
   const bool halo = lattice_.halo->active();
@@ -144,6 +155,7 @@ void ForceKernel<T>::apply(lattice::Field<T>& u, lattice::Field<T>& force) {
   const auto inner = [&](std::int64_t j, std::int64_t k) {
     return rows_are_whole && j > 0 && k > 0 && j + 1 < owned[1] && k + 1 < owned[2];
   };
+  poison_owned(force);
   if (halo) lattice_.halo->begin(u);
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j)

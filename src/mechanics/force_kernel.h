@@ -38,6 +38,7 @@ class ForceKernel {
   };
   void make_tables();
   void make_segments();
+  void poison_owned(lattice::Field<T>& force) const;
   void write_row(const lattice::Field<T>& u, std::int64_t j, std::int64_t k, lattice::Field<T>& force);
 
   const model::SpringLattice& lattice_;
