@@ -90,16 +90,18 @@ def accuracy(koshi, directory):
             texts = ["%.6f | %+.2f %%" % (u, 100 * (u / CONVERGED[nu] - 1))
                      for u in (100 * b["probes"]["tip"]["displacement"][0] for b in both)]
             print(f"| {calibration}, nu = {nu:g} | " + " | ".join(texts) + " |")
-    print(f"\nUnknowns of the cantilever: {unknowns[0]} and {unknowns[1]}.")
 
-    print("\n| cantilever, nu = 0.18 | rotational | least-squares |\n|---|---|---|")
-    for cell, calibration in (("cube-II", "isotropic"), ("cube-III", "bending-exact")):
+    print("\n| cantilever, d = 0.2 cm, nu = 0.18 | rotational | least-squares |\n|---|---|---|")
+    print(f"| unknowns | {unknowns[0]} | {unknowns[1]} |")
+    springs = (("cube-II", "isotropic"), ("cube-III", "bending-exact"))
+    for cell, calibration in springs:
         both = [cantilever(koshi, directory, cell, calibration, k, 0.18) for k in KINEMATICS]
         print(f"| {cell}, {calibration}: iterations to 1e-9 | " +
               " | ".join(str(b["analysis"]["iterations"]) for b in both) + " |")
+    for cell, calibration in springs:
         both = [automatic_step(koshi, directory, cell, calibration, k) for k in KINEMATICS]
-        print(f"| {cell}, {calibration}: automatic step, undamped [us] | " +
-              " | ".join("%.3f" % (1e6 * step) for step in both) + " |")
+        print(f"| {cell}, {calibration}: automatic step, undamped | " +
+              " | ".join("%.3f us" % (1e6 * step) for step in both) + " |")
 
 
 def costs(koshi, directory):
