@@ -85,10 +85,13 @@ void expect_read_alike(const fs::path& pieces, const fs::path& whole) {
 
 TEST(Ranks, SameBitsOnAnyNumber) {
   const test::TemporaryDirectory directory;
-  const std::string run = "run " KOSHI_SOURCE_DIR
-                          "/tests/regression/shaken.toml --quiet --set 'analysis.duration=\"80 us\"' --set "
-                          "'output.every=\"20 us\"' --set 'output.fields=[\"displacement\", \"rotation\", "
-                          "\"orientation\", \"velocity\", \"reaction\", \"strain\", \"stress\", \"energy\"]' --out ";
+  // Ranks that share a core wait for each other at every step and every sum: few of both.
+  const std::string run =
+      "run " KOSHI_SOURCE_DIR
+      "/tests/regression/shaken.toml --quiet --set 'analysis.duration=\"30 us\"' --set "
+      "'output.every=\"10 us\"' --set 'output.history_every=\"0.5 us\"' --set 'output.checkpoint_every_wall=\"1 "
+      "hour\"' --set 'output.fields=[\"displacement\", \"rotation\", "
+      "\"orientation\", \"velocity\", \"reaction\", \"strain\", \"stress\", \"energy\"]' --out ";
   const auto run_on = [&](int ranks) {
     const fs::path out = directory / std::to_string(ranks);
     const test::Ended ended = test::koshi(directory.path(), run + out.native() + " --ranks " + std::to_string(ranks));
@@ -98,9 +101,9 @@ TEST(Ranks, SameBitsOnAnyNumber) {
   };
   const fs::path one = run_on(1);
   const std::string history = test::read_file(one / "history.csv");
-  EXPECT_GT(std::ranges::count(history, '\n'), 200);
+  EXPECT_GT(std::ranges::count(history, '\n'), 50);
   const auto samples = io::list_samples(one);
-  ASSERT_EQ(samples.size(), 5U);
+  ASSERT_EQ(samples.size(), 4U);
   for (const int ranks : {2, 3, 4, 8}) {
     SCOPED_TRACE(std::to_string(ranks) + " ranks");
     const fs::path out = run_on(ranks);
