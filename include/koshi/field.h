@@ -4,12 +4,15 @@
 #include <cstddef>
 #include <cstring>
 #include <memory>
-#include <new>
 #include <span>
 
 #include "koshi/grid.h"
 
 namespace koshi::lattice {
+
+/// Memory for the values of a field, 64-byte aligned and in huge pages where it fills them; throws std::bad_alloc.
+void* allocate_values(std::size_t bytes);
+void free_values(void* values);
 
 /// `components` values of type T per node, component c of node n at component(c)[n] with n = Layout::index. One block
 /// of 64-byte aligned memory, zero at first; the same memory serves kernels, files and NumPy views.
@@ -53,16 +56,14 @@ class Field {
  private:
   static constexpr std::size_t alignment = 64;
   struct Free {
-    void operator()(T* p) const { ::operator delete (p, std::align_val_t{alignment}); }
+    void operator()(T* p) const { free_values(p); }
   };
   // Components are kept apart by an odd number of cache lines, so that they do not compete for the same cache sets.
   static std::int64_t padded(std::int64_t size) {
     const std::int64_t line = static_cast<std::int64_t>(alignment / sizeof(T));
     return ((size + line - 1) / line | 1) * line;
   }
-  static T* allocate(std::size_t count) {
-    return static_cast<T*>(::operator new (count * sizeof(T), std::align_val_t{alignment}));
-  }
+  static T* allocate(std::size_t count) { return static_cast<T*>(allocate_values(count * sizeof(T))); }
 
   int components_ = 0;
   std::int64_t stride_ = 0;

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "dynamics/orientation.h"
 #include "dynamics/row_update.h"
 #include "koshi/dynamics.h"
@@ -23,6 +25,13 @@ lattice::Field<double> inverse(const lattice::Layout& layout, const lattice::Fie
   return result;
 }
 
+// Rows of nodes in y whose displacements on three planes and velocities on two stay in the second-level cache.
+std::int64_t rows_in_cache(const model::Model& model) {
+  constexpr std::int64_t cache = 768 * 1024;
+  const std::int64_t row = static_cast<std::int64_t>(sizeof(double)) * model.components() * model.layout().pitch();
+  return std::max<std::int64_t>(4, (cache / row - 6) / 5);
+}
+
 }  // namespace
 
 struct ExplicitSolver::Implementation {
@@ -35,6 +44,7 @@ struct ExplicitSolver::Implementation {
   mechanics::LoadRows loads;
   mechanics::RowIndex motion_rows;
   lattice::Field<double> inverse_inertia;
+  const std::int64_t block_rows;
   const double origin;  // time of step 0: times are origin + step dt, so that they do not gather rounding
 
   Implementation(const model::Model& m, model::State& s, double step)
@@ -46,6 +56,7 @@ struct ExplicitSolver::Implementation {
         loads(m),
         motion_rows(m.layout(), m.motions, [](const model::PrescribedMotion& p) { return p.node; }),
         inverse_inertia(inverse(m.layout(), m.inertia)),
+        block_rows(rows_in_cache(m)),
         origin(s.time - static_cast<double>(s.step) * step) {
     if (state.step == 0 && state.time == 0) take_initial_displacements();
   }
@@ -78,7 +89,7 @@ struct ExplicitSolver::Implementation {
     loads.add(j, k, force);
     const std::int64_t n = layout.index(0, j, k);
     for (int c = 0; c < model.components(); ++c)
-      update.kick(kick, layout.owned()[0], force[c], inverse_inertia.component(c < 3 ? 0 : 1) + n,
+      update.kick(kick, layout.owned()[0], layout.pitch(), force[c], inverse_inertia.component(c < 3 ? 0 : 1) + n,
                   state.velocity.component(c) + n);
     impose_motion(j + layout.owned()[1] * k);
   }
@@ -101,35 +112,55 @@ struct ExplicitSolver::Implementation {
     }
   }
 
-  // A row may move once the forces of all rows around it are known. Rows that need no ghosts are done while the ghosts
-  // are on their way, plane by plane, and move two planes behind, still in the cache.
+  // Moves the rows lo <= j < hi of plane k, without those closer than `margin` to the border.
+  void drift_rows(std::int64_t lo, std::int64_t hi, std::int64_t k, std::int64_t margin) {
+    const Int3& owned = model.layout().owned();
+    if (k < margin || k >= owned[2] - margin) return;
+    lo = std::max(lo, margin);
+    hi = std::min(hi, owned[1] - margin);
+    for (std::int64_t j = lo; j < hi; ++j) drift_row(j, k);
+  }
+
+  // Kicks the rows that are `border` or more away from the border, and moves those whose neighbours are all among them.
+  // Blocks of a few rows go up through all planes, so that what a row's neighbours read is still in the cache; a row
+  // moves when the last row that reads it, the next one in the plane above, has its force.
+  void step_inner(std::int64_t border) {
+    const Int3& owned = model.layout().owned();
+    const std::int64_t last_row = owned[1] - border, last_plane = owned[2] - border;
+    for (std::int64_t begin = border; begin < last_row; begin += block_rows) {
+      const std::int64_t end = std::min(begin + block_rows, last_row);
+      const std::int64_t lo = begin - 1, hi = end == last_row ? end : end - 1;
+      for (std::int64_t k = border; k < last_plane; ++k) {
+        for (std::int64_t j = begin; j < end; ++j) kick_row(j, k);
+        drift_rows(lo, hi, k - 1, 2 * border);
+      }
+      drift_rows(lo, hi, last_plane - 1, 2 * border);
+    }
+  }
+
+  // Rows that need no ghosts are done while the ghosts are on their way.
   void step() {
     const Int3& owned = model.layout().owned();
-    const bool halo = model.lattice.halo->active();
-    const bool rows_are_whole = owned[0] == model.lattice.grid.nodes()[0] && !model.lattice.grid.periodic[0];
-    // Range of rows [lo, hi) whose force needs no ghosts, and of those that may move before the others are known.
-    const std::int64_t border = halo ? (rows_are_whole ? 1 : owned[1] + owned[2]) : 0;
-    const auto inside = [&](std::int64_t j, std::int64_t k, std::int64_t margin) {
-      return j >= margin && k >= margin && j < owned[1] - margin && k < owned[2] - margin;
-    };
+    const lattice::Halo& halo = *model.lattice.halo;
     loads.set_time(state.time);
-
-    if (halo) model.lattice.halo->begin(state.displacement);
-    for (std::int64_t k = border; k < owned[2] - border; ++k) {
-      for (std::int64_t j = border; j < owned[1] - border; ++j) kick_row(j, k);
-      for (std::int64_t j = 2 * border; j < owned[1] - 2 * border; ++j)
-        if (inside(j, k - 1, 2 * border)) drift_row(j, k - 1);
-    }
-    if (halo) {
-      model.lattice.halo->end();
+    if (!halo.active()) {
+      step_inner(0);
+    } else {
+      const bool rows_are_whole = owned[0] == model.lattice.grid.nodes()[0] && !model.lattice.grid.periodic[0];
+      const std::int64_t border = rows_are_whole ? 1 : owned[1] + owned[2];
+      const auto inside = [&](std::int64_t j, std::int64_t k, std::int64_t margin) {
+        return j >= margin && k >= margin && j < owned[1] - margin && k < owned[2] - margin;
+      };
+      halo.begin(state.displacement);
+      step_inner(border);
+      halo.end();
       for (std::int64_t k = 0; k < owned[2]; ++k)
         for (std::int64_t j = 0; j < owned[1]; ++j)
           if (!inside(j, k, border)) kick_row(j, k);
+      for (std::int64_t k = 0; k < owned[2]; ++k)
+        for (std::int64_t j = 0; j < owned[1]; ++j)
+          if (!inside(j, k, 2 * border)) drift_row(j, k);
     }
-    // What has not moved yet: rows near the border, and the last plane.
-    for (std::int64_t k = 0; k < owned[2]; ++k)
-      for (std::int64_t j = 0; j < owned[1]; ++j)
-        if (!inside(j, k, 2 * border) || k == owned[2] - border - 1) drift_row(j, k);
     ++state.step;
     state.time = origin + static_cast<double>(state.step) * dt;
   }

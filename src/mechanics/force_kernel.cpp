@@ -32,34 +32,68 @@ ForceKernel<T>::ForceKernel(const SpringLattice& lattice)
 template <class T>
 void ForceKernel<T>::make_tables() {
   const double d = lattice_.grid.d;
-  // Divisor |s|^2 of the normal part: classes know no family, so find one bond of each class.
-  std::array<int, 256> length{};
+  // Classes are numbered family by family but do not know theirs: find one bond of each.
+  std::array<int, 256> family;
+  family.fill(-1);
   for (int slot = 0; slot < lattice::slot_count; ++slot) {
     const std::uint8_t* bond = lattice_.bond.component(slot);
     for (std::int64_t n = 0; n < lattice_.layout.size(); ++n)
-      length[bond[n]] = lattice::squared_length[lattice::slots[slot].family];
+      if (bond[n] != 0) family[bond[n]] = lattice::slots[slot].family;
   }
-  kt_.assign(256, 0);
-  kb_.assign(256, 0);
-  for (std::size_t c = 1; c < lattice_.classes.size(); ++c) {
-    kt_[c] = static_cast<T>(lattice_.classes[c].kt);
-    if (length[c] != 0) kb_[c] = static_cast<T>((lattice_.classes[c].kn - lattice_.classes[c].kt) / length[c]);
+  constexpr int entries = Tables<T>::entries;
+  kt_.assign(lattice::family_count * entries, 0);
+  kb_.assign(lattice::family_count * entries, 0);
+  for (int f = 0; f < lattice::family_count; ++f)
+    tables_.family[f] = {kt_.data() + entries * f, kb_.data() + entries * f, 0, 0};
+  for (int c = 1; c < static_cast<int>(lattice_.classes.size()); ++c) {
+    const int f = family[c];
+    if (f < 0) continue;
+    typename Tables<T>::Family& table = tables_.family[f];
+    if (table.size == 0) table.first = static_cast<std::uint8_t>(c - 1);
+    table.size = c - table.first + 1;
+    const model::BondClass& bond = lattice_.classes[c];
+    kt_[entries * f + c] = static_cast<T>(bond.kt);
+    kb_[entries * f + c] = static_cast<T>((bond.kn - bond.kt) / lattice::squared_length[f]);
   }
   volumetric_table_.assign(256, 0);
   fit_table_.assign(256, 0);
   stencils_.resize(lattice_.springs.size());
+  faces_.resize(lattice_.springs.size());
   for (std::size_t m = 1; m < lattice_.springs.size(); ++m) {
     const material::Springs& s = lattice_.springs[m];
     volumetric_table_[m] = static_cast<T>(s.kappa * d / 16);
     fit_table_[m] = static_cast<T>((s.kt[0] / 4 + s.kt[1] + s.kt[2]) / 8);
     stencils_[m] = make_stencil<T>(s, d, lattice_.kinematics);
+    faces_[m] = {make_face_stencil<T>(s, d, lattice_.kinematics, 1),
+                 make_face_stencil<T>(s, d, lattice_.kinematics, -1)};
   }
-  tables_ = {kt_.data(),
-             kb_.data(),
-             volumetric_table_.data(),
-             fit_table_.data(),
-             static_cast<T>(0.5 * d),
-             static_cast<int>(lattice_.classes.size())};
+  tables_.volumetric = volumetric_table_.data();
+  tables_.fit = fit_table_.data();
+  tables_.half_d = static_cast<T>(0.5 * d);
+}
+
+template <class T>
+typename ForceKernel<T>::Kind ForceKernel<T>::kind_of(std::int64_t node) const {
+  const lattice::Layout& layout = lattice_.layout;
+  const std::uint8_t* cell = lattice_.cell.component(0);
+  // The cells above and below the node in x: the material where all four are of one, or none.
+  std::array<int, 2> side;
+  for (int below = 0; below < 2; ++below) {
+    side[below] = cell[node - layout.offset({below, 0, 0})];
+    for (int yz = 1; yz < 4; ++yz)
+      if (cell[node - layout.offset({below, yz & 1, yz >> 1})] != side[below]) side[below] = -1;
+  }
+  if (side[0] == 0 && side[1] == 0) return Kind::empty;
+  // With plain springs a bond on a surface has its full stiffness, and the parts of a cell under the least-squares
+  // rotation depend on its neighbours. Rows of a few nodes are done faster in one go. (The rows of the body decide,
+  // not this rank's part of them.)
+  const bool shared = lattice_.sharing == material::Sharing::shared;
+  if ((!shared && lattice_.kinematics == material::Kinematics::least_squares) || lattice_.grid.nodes()[0] <= 8)
+    return Kind::bonds;
+  if (side[0] == side[1] && side[0] > 0) return Kind::uniform;
+  if (shared && side[0] > 0 && side[1] == 0) return Kind::face_above;
+  if (shared && side[0] == 0 && side[1] > 0) return Kind::face_below;
+  return Kind::bonds;
 }
 
 template <class T>
@@ -67,26 +101,17 @@ void ForceKernel<T>::make_segments() {
   const lattice::Layout& layout = lattice_.layout;
   const Int3& owned = layout.owned();
   const std::uint8_t* cell = lattice_.cell.component(0);
-  // With plain springs and the least-squares rotation the parts of a cell depend on its neighbours: no node is uniform.
-  // Rows of a few nodes are done faster in one go. (The rows of the body decide, not this rank's part of them.)
-  const bool uniform_allowed =
-      !(lattice_.sharing == material::Sharing::plain && lattice_.kinematics == material::Kinematics::least_squares) &&
-      lattice_.grid.nodes()[0] > 8;
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j) {
       row_segments_.push_back(static_cast<std::int64_t>(segments_.size()));
       const std::int64_t n = layout.index(0, j, k);
       for (std::int64_t i = 0; i < owned[0]; ++i) {
-        bool uniform = true, empty = true;
-        const std::uint8_t m = cell[n + i];
-        for (int corner = 0; corner < 8; ++corner) {
-          const std::uint8_t other = cell[n + i - layout.offset({corner & 1, corner >> 1 & 1, corner >> 2})];
-          uniform = uniform && other == m;
-          empty = empty && other == 0;
-        }
-        const std::uint8_t kind = uniform && uniform_allowed ? m : std::uint8_t{0};
-        const bool begins = i == 0 || segments_.back().material != kind || segments_.back().empty != empty;
-        if (begins) segments_.push_back({static_cast<std::int32_t>(i), 0, kind, empty});
+        const Kind kind = kind_of(n + i);
+        std::uint8_t material = 0;
+        if (kind == Kind::uniform || kind == Kind::face_above) material = cell[n + i];
+        if (kind == Kind::face_below) material = cell[n + i - 1];
+        const bool begins = i == 0 || segments_.back().kind != kind || segments_.back().material != material;
+        if (begins) segments_.push_back({static_cast<std::int32_t>(i), 0, kind, material});
         segments_.back().last = static_cast<std::int32_t>(i + 1);
       }
     }
@@ -111,13 +136,18 @@ T* const* ForceKernel<T>::row(const lattice::Field<T>& u, std::int64_t j, std::i
   const std::int64_t at = j + layout.owned()[1] * k;
   for (std::int64_t s = row_segments_[at]; s < row_segments_[at + 1]; ++s) {
     const Segment& segment = segments_[s];
-    if (segment.empty) {
+    if (segment.kind == Kind::empty) {
       for (int c = 0; c < components_; ++c) std::fill(force_[c] + segment.first, force_[c] + segment.last, T{0});
       continue;
     }
-    if (segment.material != 0) {
+    if (segment.kind == Kind::uniform) {
       (rotational ? kernels.uniform : kernels.uniform_displacement)(stencils_[segment.material], row, segment.first,
                                                                     segment.last, scratch_, force_.data());
+      continue;
+    }
+    if (segment.kind != Kind::bonds) {
+      const FaceStencil<T>& face = faces_[segment.material][segment.kind == Kind::face_above ? 0 : 1];
+      (rotational ? kernels.face : kernels.face_displacement)(face, row, segment.first, force_.data());
       continue;
     }
     (rotational ? kernels.bonds : kernels.bonds_displacement)(tables_, row, segment.first, segment.last, force_.data());

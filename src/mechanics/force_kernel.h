@@ -12,8 +12,8 @@
 namespace koshi::mechanics {
 
 /// F = -K u for the springs of one lattice, in precision T. A node with the same material in its eight cells is served
-/// by a stencil with constant coefficients, the others by their bonds and cells one by one. The lattice must outlive
-/// it.
+/// by a stencil with constant coefficients, as is one in a flat face across x, where a row would end with a short
+/// vector; the others by their bonds and cells one by one. The lattice must outlive it.
 template <class T>
 class ForceKernel {
  public:
@@ -30,12 +30,20 @@ class ForceKernel {
   int components() const { return components_; }
 
  private:
-  /// Nodes first <= i < last of a row; material 0: several materials or free surface.
+  enum class Kind : std::uint8_t {
+    empty,       // no material around
+    uniform,     // one material all around
+    face_above,  // one node in a flat face across x, one material above it or below it
+    face_below,
+    bonds  // anything else
+  };
+  /// Nodes first <= i < last of a row.
   struct Segment {
     std::int32_t first, last;
+    Kind kind;
     std::uint8_t material;
-    bool empty;
   };
+  Kind kind_of(std::int64_t node) const;
   void make_tables();
   void make_segments();
   void poison_owned(lattice::Field<T>& force) const;
@@ -45,10 +53,11 @@ class ForceKernel {
   int components_;
   bool volumetric_;
   std::vector<Segment> segments_;
-  std::vector<std::int64_t> row_segments_;  ///< first segment of each row, x fastest rows j + owned_y k
-  std::vector<Stencil<T>> stencils_;        ///< by material
+  std::vector<std::int64_t> row_segments_;            ///< first segment of each row, x fastest rows j + owned_y k
+  std::vector<Stencil<T>> stencils_;                  ///< by material
+  std::vector<std::array<FaceStencil<T>, 2>> faces_;  ///< by material, above and below
   std::vector<T> kt_, kb_, volumetric_table_, fit_table_;
-  Tables<T> tables_;
+  Tables<T> tables_{};
   lattice::Field<T> work_;  ///< one row per component
   Scratch<T> scratch_;
   std::array<T*, 6> force_;

@@ -98,8 +98,9 @@ void uniform(const Stencil<T>& stencil, const Row<T>& row, std::int64_t first, s
   const T* const w1 = rotational ? row.u[4] : nullptr;
   const T* const w2 = rotational ? row.u[5] : nullptr;
 
-  // Combine the rows.
+  // Combine the rows. The next row's newest neighbour, which no row has read yet, is fetched on the way.
   for (std::int64_t begin = aligned(first - 1); begin < last + 1; begin += width<T>) {
+    for (int c = 0; c < components; ++c) __builtin_prefetch(row.u[c] + begin + 2 * y + z, 0, 2);
 #pragma GCC ivdep
     for (std::int64_t i = begin; i < begin + width<T>; ++i) {
       Output<T> F[3], M[3];
@@ -132,6 +133,28 @@ void uniform(const Stencil<T>& stencil, const Row<T>& row, std::int64_t first, s
   }
 }
 
+// One node: the lanes are the components of its force, with a chain of additions for each component it reads.
+template <class T, bool rotational>
+void face(const FaceStencil<T>& stencil, const Row<T>& row, std::int64_t i, T* const force[6]) {
+  constexpr int components = rotational ? 6 : 3;
+  using Vector __attribute__((vector_size(FaceStencil<T>::lanes * sizeof(T)))) = T;
+  Vector sum[components] = {};
+  int neighbour = 0;
+  for (int z = -1; z <= 1; ++z)
+    for (int y = -1; y <= 1; ++y)
+      for (int x = 0; x <= 1; ++x, ++neighbour) {
+        const std::ptrdiff_t at = i + x * stencil.toward + y * row.pitch + z * row.plane;
+        for (int c = 0; c < components; ++c) {
+          Vector column;
+          __builtin_memcpy(&column, stencil.column[neighbour][c], sizeof column);
+          sum[c] += column * row.u[c][at];
+        }
+      }
+  Vector total = (sum[0] + sum[1]) + sum[2];
+  if constexpr (rotational) total += (sum[3] + sum[4]) + sum[5];
+  for (int c = 0; c < components; ++c) force[c][i] = total[c];
+}
+
 // --- Bonds of any class
 // -----------------------------------------------------------------------------------------------
 
@@ -156,16 +179,24 @@ struct Simd {
     return v;
   }
 
-  // Entries of a table. One of at most `lanes` classes (a body of one material has up to 8) sits in a register.
-  template <bool small>
-  static inline __attribute__((always_inline)) Vector look_up(const T* table, const std::uint8_t* bond) {
+  static constexpr int scattered = 0;  // table of any size
+
+  // Entries of a table for the given bonds. It is held in one register or two; a larger one is read lane by lane.
+  template <int registers>
+  static inline __attribute__((always_inline)) Vector look_up(const T* table, std::uint8_t first,
+                                                              const std::uint8_t* bond) {
     Vector v;
-    if constexpr (small) {
-      Bytes bytes;
-      __builtin_memcpy(&bytes, bond, sizeof bytes);
-      v = __builtin_shuffle(load(table), __builtin_convertvector(bytes, Index));
-    } else {
+    if constexpr (registers == scattered) {
       for (int i = 0; i < lanes; ++i) v[i] = table[bond[i]];
+    } else {
+      Bytes entry;
+      __builtin_memcpy(&entry, bond, sizeof entry);
+      entry = entry > first ? entry - first : Bytes{};
+      const Index index = __builtin_convertvector(entry, Index);
+      if constexpr (registers == 1)
+        v = __builtin_shuffle(load(table + first), index);
+      else
+        v = __builtin_shuffle(load(table + first), load(table + first + lanes), index);
     }
     return v;
   }
@@ -173,7 +204,7 @@ struct Simd {
 
 // Adds the bonds of one direction, forward (sign +1) or backward, to the nodes from `begin` on. With D = -d s the
 // relative displacement is r = u1 - u2 + d/2 (w1 + w2) x s; the force on the node is -F, its moment -d/2 s x F.
-template <class T, int lanes, bool rotational, bool small, int slot, int sign>
+template <class T, int lanes, bool rotational, int edge_registers, int other_registers, int slot, int sign>
 inline __attribute__((always_inline)) void add_bond(const Tables<T>& tables, const Row<T>& row, std::int64_t begin,
                                                     typename Simd<T, lanes>::Vector (&F)[6]) {
   using S = Simd<T, lanes>;
@@ -181,8 +212,11 @@ inline __attribute__((always_inline)) void add_bond(const Tables<T>& tables, con
   constexpr int ox = sign * direction<slot>(0), oy = sign * direction<slot>(1), oz = sign * direction<slot>(2);
   constexpr T sx = ox, sy = oy, sz = oz;
   const std::ptrdiff_t to = ox + row.pitch * oy + row.plane * oz;
+  constexpr int family = ox * ox + oy * oy + oz * oz - 1, registers = family == 0 ? edge_registers : other_registers;
+  const typename Tables<T>::Family& classes = tables.family[family];
   const std::uint8_t* const bond = row.bond[slot] + begin + (sign > 0 ? 0 : to);
-  const Vector kt = S::template look_up<small>(tables.kt, bond), kb = S::template look_up<small>(tables.kb, bond);
+  const Vector kt = S::template look_up<registers>(classes.kt, classes.first, bond);
+  const Vector kb = S::template look_up<registers>(classes.kb, classes.first, bond);
   const auto difference = [&](int c) { return S::load(row.u[c] + begin) - S::load(row.u[c] + begin + to); };
   const T h = tables.half_d;
   Vector rx = difference(0), ry = difference(1), rz = difference(2);
@@ -205,33 +239,40 @@ inline __attribute__((always_inline)) void add_bond(const Tables<T>& tables, con
   }
 }
 
-template <class T, int lanes, bool rotational, bool small, int slot = 0>
+template <class T, int lanes, bool rotational, int edge_registers, int other_registers, int slot = 0>
 inline __attribute__((always_inline)) void add_bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t begin,
                                                      typename Simd<T, lanes>::Vector (&F)[6]) {
   if constexpr (slot < 13) {
-    add_bond<T, lanes, rotational, small, slot, 1>(tables, row, begin, F);
-    add_bond<T, lanes, rotational, small, slot, -1>(tables, row, begin, F);
-    add_bonds<T, lanes, rotational, small, slot + 1>(tables, row, begin, F);
+    add_bond<T, lanes, rotational, edge_registers, other_registers, slot, 1>(tables, row, begin, F);
+    add_bond<T, lanes, rotational, edge_registers, other_registers, slot, -1>(tables, row, begin, F);
+    add_bonds<T, lanes, rotational, edge_registers, other_registers, slot + 1>(tables, row, begin, F);
   }
 }
 
-template <class T, int lanes, bool rotational, bool small>
+template <class T, int lanes, bool rotational, int edge_registers, int other_registers>
 void bonds_with(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, T* const force[6]) {
   for (std::int64_t begin = first; begin < last; begin += lanes) {
     typename Simd<T, lanes>::Vector F[6] = {};
-    add_bonds<T, lanes, rotational, small>(tables, row, begin, F);
+    add_bonds<T, lanes, rotational, edge_registers, other_registers>(tables, row, begin, F);
     for (int c = 0; c < (rotational ? 6 : 3); ++c) __builtin_memcpy(force[c] + begin, &F[c], sizeof F[c]);
   }
 }
 
 template <class T, bool rotational>
 void bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, T* const force[6]) {
+  constexpr int lanes = width<T>, scattered = Simd<T, lanes>::scattered;
+  const int edges = tables.family[0].size, faces = tables.family[1].size, bodies = tables.family[2].size;
+  const int others = faces > bodies ? faces : bodies;
   if (last - first <= 2)
-    bonds_with<T, 2, rotational, false>(tables, row, first, last, force);
-  else if (tables.classes <= width<T>)
-    bonds_with<T, width<T>, rotational, true>(tables, row, first, last, force);
+    bonds_with<T, 2, rotational, scattered, scattered>(tables, row, first, last, force);
+  else if (edges <= lanes && others <= lanes)
+    bonds_with<T, lanes, rotational, 1, 1>(tables, row, first, last, force);
+  else if (edges <= 2 * lanes && others <= 2 * lanes)
+    bonds_with<T, lanes, rotational, 2, 2>(tables, row, first, last, force);
+  else if (others <= 2 * lanes)
+    bonds_with<T, lanes, rotational, scattered, 2>(tables, row, first, last, force);
   else
-    bonds_with<T, width<T>, rotational, false>(tables, row, first, last, force);
+    bonds_with<T, lanes, rotational, scattered, scattered>(tables, row, first, last, force);
 }
 
 // --- Cells
@@ -310,11 +351,11 @@ void fit(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::in
 
 }  // namespace
 
-extern const RowKernels<double> kernels_double{uniform<double, true>, uniform<double, false>, bonds<double, true>,
-                                               bonds<double, false>,  volumetric<double>,     fit<double>,
-                                               KOSHI_TEXT(KOSHI_ISA)};
-extern const RowKernels<float> kernels_float{uniform<float, true>, uniform<float, false>, bonds<float, true>,
-                                             bonds<float, false>,  volumetric<float>,     fit<float>,
-                                             KOSHI_TEXT(KOSHI_ISA)};
+extern const RowKernels<double> kernels_double{
+    uniform<double, true>, uniform<double, false>, face<double, true>, face<double, false>,  bonds<double, true>,
+    bonds<double, false>,  volumetric<double>,     fit<double>,        KOSHI_TEXT(KOSHI_ISA)};
+extern const RowKernels<float> kernels_float{
+    uniform<float, true>, uniform<float, false>, face<float, true>, face<float, false>,   bonds<float, true>,
+    bonds<float, false>,  volumetric<float>,     fit<float>,        KOSHI_TEXT(KOSHI_ISA)};
 
 }  // namespace koshi::mechanics::KOSHI_ISA

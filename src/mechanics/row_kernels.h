@@ -27,6 +27,16 @@ struct Stencil {
   Cross coupling;
 };
 
+/// Force on a node in a flat face across x: four cells of one material on the side `toward` (1: above the node, -1:
+/// below), none on the other. Columns of the matrix by neighbour (z slowest, y, then the node's own plane and the next
+/// one towards the cells) and component, the force's components in the first lanes.
+template <class T>
+struct FaceStencil {
+  static constexpr int neighbours = 18, lanes = 8;
+  int toward;
+  T column[neighbours][6][lanes];
+};
+
 /// One row of nodes seen by the kernels: pointers to node i = 0 of the row.
 template <class T>
 struct Row {
@@ -36,15 +46,21 @@ struct Row {
   std::ptrdiff_t pitch, plane;   ///< distance to the next row in y and in z
 };
 
-/// What classes and materials mean, by index (256 entries each).
+/// What classes and materials mean. The bond classes of a family have consecutive numbers.
 template <class T>
 struct Tables {
-  const T* kt;          ///< shear stiffness of a bond class
-  const T* kb;          ///< (kn - kt) / |s|^2 of a bond class
+  static constexpr int entries = 256 + 32;  ///< one per number, and padding for vectors
+  /// By class, zero for those of other families.
+  struct Family {
+    const T* kt;         ///< shear stiffness
+    const T* kb;         ///< (kn - kt) / |s|^2
+    std::uint8_t first;  ///< number before that of the family's first class
+    int size;            ///< classes from `first` on
+  };
+  Family family[3];
   const T* volumetric;  ///< kappa d / 16 of a material
   const T* fit;         ///< (kt1/4 + kt2 + kt3) / 8 of a material: the least-squares rotation of shared springs
   T half_d;             ///< d / 2
-  int classes;          ///< classes in use, that of the absent bond included
 };
 
 /// Work space of one row: `stencil` 18 rows, `cell` 4 rows; rows hold `length` elements, node i = 0 at `lead`.
@@ -63,6 +79,9 @@ struct RowKernels {
                   T* const force[6]);
   void (*uniform_displacement)(const Stencil<T>&, const Row<T>&, std::int64_t first, std::int64_t last,
                                const Scratch<T>&, T* const force[6]);
+  /// The same for the single node i in a face across x.
+  void (*face)(const FaceStencil<T>&, const Row<T>&, std::int64_t i, T* const force[6]);
+  void (*face_displacement)(const FaceStencil<T>&, const Row<T>&, std::int64_t i, T* const force[6]);
   /// Bonds of any class: sets force to the sum over the 26 bonds.
   void (*bonds)(const Tables<T>&, const Row<T>&, std::int64_t first, std::int64_t last, T* const force[6]);
   void (*bonds_displacement)(const Tables<T>&, const Row<T>&, std::int64_t first, std::int64_t last, T* const force[6]);

@@ -48,10 +48,15 @@ void for_each_bond(const SpringLattice& body, F&& f) {
   const std::uint8_t* cell = body.cell.component(0);
   for (int slot = 0; slot < lattice::slot_count; ++slot) {
     const auto around = offsets_around(body.layout, slots[slot].s);
+    ClassKey found{}, key{};
     lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
-      ClassKey key{static_cast<std::uint8_t>(slots[slot].family)};
-      for (std::size_t c = 0; c < around.size(); ++c) key[c + 1] = cell[n + around[c]];
-      std::sort(key.begin() + 1, key.end());
+      ClassKey here{static_cast<std::uint8_t>(slots[slot].family)};
+      for (std::size_t c = 0; c < around.size(); ++c) here[c + 1] = cell[n + around[c]];
+      // Neighbours mostly have the same cells around them.
+      if (here != found) {
+        found = key = here;
+        std::sort(key.begin() + 1, key.end());
+      }
       if (key.back() != 0) f(slot, n, key);
     });
   }
