@@ -55,8 +55,8 @@ void ForceKernel<T>::make_tables() {
     kt_[entries * f + c] = static_cast<T>(bond.kt);
     kb_[entries * f + c] = static_cast<T>((bond.kn - bond.kt) / lattice::squared_length[f]);
   }
-  volumetric_table_.assign(256, 0);
-  fit_table_.assign(256, 0);
+  volumetric_table_.assign(entries, 0);
+  fit_table_.assign(entries, 0);
   stencils_.resize(lattice_.springs.size());
   faces_.resize(lattice_.springs.size());
   for (std::size_t m = 1; m < lattice_.springs.size(); ++m) {
@@ -69,6 +69,7 @@ void ForceKernel<T>::make_tables() {
   }
   tables_.volumetric = volumetric_table_.data();
   tables_.fit = fit_table_.data();
+  tables_.materials = static_cast<int>(lattice_.springs.size());
   tables_.half_d = static_cast<T>(0.5 * d);
 }
 

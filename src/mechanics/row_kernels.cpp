@@ -179,6 +179,9 @@ struct Simd {
     return v;
   }
 
+  static inline __attribute__((always_inline)) void store(T* p, const Vector& v) { __builtin_memcpy(p, &v, sizeof v); }
+  static inline __attribute__((always_inline)) void add(T* p, const Vector& v) { store(p, load(p) + v); }
+
   static constexpr int scattered = 0;  // table of any size
 
   // Entries of a table for the given bonds. It is held in one register or two; a larger one is read lane by lane.
@@ -281,40 +284,93 @@ void bonds(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::
 // The linear field fitted to a cell's corners has the gradient du_i/dx_j = 1/(4d) sum_s s_j u_i(s). A node row touches
 // four rows of cells; in each, the cell before and the cell after a node in x.
 
-// Sums over the four corners of a cell's low and high x faces, with the signs of y and z.
+// Sums over the four corners of a cell's low or high x face, with the signs of y and z.
 template <class T>
 struct CellRow {
+  using S = Simd<T, width<T>>;
   const T *near, *y, *z, *far;  // the four node rows of the row of cells
   CellRow(const T* u, std::ptrdiff_t pitch, std::ptrdiff_t plane)
       : near(u), y(u + pitch), z(u + plane), far(u + pitch + plane) {}
-  T even(std::int64_t i) const { return (near[i] + y[i]) + (z[i] + far[i]); }
-  T odd_y(std::int64_t i) const { return (y[i] - near[i]) + (far[i] - z[i]); }
-  T odd_z(std::int64_t i) const { return (z[i] - near[i]) + (far[i] - y[i]); }
+  auto even(std::int64_t i) const { return (S::load(near + i) + S::load(y + i)) + (S::load(z + i) + S::load(far + i)); }
+  auto odd_y(std::int64_t i) const {
+    return (S::load(y + i) - S::load(near + i)) + (S::load(far + i) - S::load(z + i));
+  }
+  auto odd_z(std::int64_t i) const {
+    return (S::load(z + i) - S::load(near + i)) + (S::load(far + i) - S::load(y + i));
+  }
 };
 
-template <class T>
-void volumetric(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last,
-                const Scratch<T>& scratch, T* const force[6]) {
+// Calls kernel<registers> for the number of registers that hold a table of materials.
+template <class T, class Kernel>
+inline __attribute__((always_inline)) void with_materials(const Tables<T>& tables, Kernel&& kernel) {
+  constexpr int lanes = width<T>;
+  if (tables.materials <= lanes)
+    kernel(std::integral_constant<int, 1>{});
+  else
+    kernel(std::integral_constant<int, Simd<T, lanes>::scattered>{});
+}
+
+template <class T, int registers>
+void volumetric_with(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last,
+                     const Scratch<T>& scratch, T* const force[6]) {
+  using S = Simd<T, width<T>>;
+  using Vector = typename S::Vector;
   for (int side = 0; side < 4; ++side) {
     const int below_y = side & 1, below_z = side >> 1;
     const std::ptrdiff_t at = -below_y * row.pitch - below_z * row.plane;
     const CellRow<T> ux(row.u[0] + at, row.pitch, row.plane), uy(row.u[1] + at, row.pitch, row.plane),
         uz(row.u[2] + at, row.pitch, row.plane);
-    const std::uint8_t* const cell = row.cell + at;
     T* const p = scratch.cell[0];
     // p = kappa d^2 theta / 4 with theta = (sum_s s . u) / (4 d).
-#pragma GCC ivdep
-    for (std::int64_t i = first - 1; i < last; ++i)
-      p[i] = tables.volumetric[cell[i]] *
-             ((ux.even(i + 1) - ux.even(i)) + (uy.odd_y(i) + uy.odd_y(i + 1)) + (uz.odd_z(i) + uz.odd_z(i + 1)));
+    for (std::int64_t i = first - 1; i < last; i += width<T>) {
+      const Vector kappa = S::template look_up<registers>(tables.volumetric, 0, row.cell + at + i);
+      S::store(p + i, kappa * ((ux.even(i + 1) - ux.even(i)) + (uy.odd_y(i) + uy.odd_y(i + 1)) +
+                               (uz.odd_z(i) + uz.odd_z(i + 1))));
+    }
     // Force -p s on the cell's corner s; the node is the upper corner of cells below it.
     const T sy = below_y ? 1 : -1, sz = below_z ? 1 : -1;
-    T *const fx = force[0], *const fy = force[1], *const fz = force[2];
-#pragma GCC ivdep
-    for (std::int64_t i = first; i < last; ++i) {
-      fx[i] += p[i] - p[i - 1];
-      fy[i] -= sy * (p[i] + p[i - 1]);
-      fz[i] -= sz * (p[i] + p[i - 1]);
+    for (std::int64_t i = first; i < last; i += width<T>) {
+      const Vector after = S::load(p + i), before = S::load(p + i - 1), sum = after + before;
+      S::add(force[0] + i, after - before);
+      S::add(force[1] + i, -sy * sum);
+      S::add(force[2] + i, -sz * sum);
+    }
+  }
+}
+
+template <class T>
+void volumetric(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last,
+                const Scratch<T>& scratch, T* const force[6]) {
+  with_materials(
+      tables, [&](auto registers) { volumetric_with<T, registers.value>(tables, row, first, last, scratch, force); });
+}
+
+template <class T, int registers>
+void fit_with(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last,
+              const Scratch<T>& scratch, T* const force[6]) {
+  using S = Simd<T, width<T>>;
+  using Vector = typename S::Vector;
+  for (int side = 0; side < 4; ++side) {
+    const int below_y = side & 1, below_z = side >> 1;
+    const std::ptrdiff_t at = -below_y * row.pitch - below_z * row.plane;
+    const CellRow<T> ux(row.u[0] + at, row.pitch, row.plane), uy(row.u[1] + at, row.pitch, row.plane),
+        uz(row.u[2] + at, row.pitch, row.plane);
+    T *const ax = scratch.cell[0], *const ay = scratch.cell[1], *const az = scratch.cell[2];
+    // a = q d w with 8 d w = sum_s s x u and q = kt1/4 + kt2 + kt3.
+    for (std::int64_t i = first - 1; i < last; i += width<T>) {
+      const Vector q = S::template look_up<registers>(tables.fit, 0, row.cell + at + i);
+      S::store(ax + i, q * ((uz.odd_y(i) + uz.odd_y(i + 1)) - (uy.odd_z(i) + uy.odd_z(i + 1))));
+      S::store(ay + i, q * ((ux.odd_z(i) + ux.odd_z(i + 1)) - (uz.even(i + 1) - uz.even(i))));
+      S::store(az + i, q * ((uy.even(i + 1) - uy.even(i)) - (ux.odd_y(i) + ux.odd_y(i + 1))));
+    }
+    // Force a x s; s_x = +1 for the cell before the node, -1 for the one after it.
+    const T sy = below_y ? 1 : -1, sz = below_z ? 1 : -1;
+    for (std::int64_t i = first; i < last; i += width<T>) {
+      const auto sum = [i](const T* a) { return S::load(a + i) + S::load(a + i - 1); };
+      const auto difference = [i](const T* a) { return S::load(a + i - 1) - S::load(a + i); };
+      S::add(force[0] + i, sz * sum(ay) - sy * sum(az));
+      S::add(force[1] + i, difference(az) - sz * sum(ax));
+      S::add(force[2] + i, sy * sum(ax) - difference(ay));
     }
   }
 }
@@ -322,31 +378,8 @@ void volumetric(const Tables<T>& tables, const Row<T>& row, std::int64_t first, 
 template <class T>
 void fit(const Tables<T>& tables, const Row<T>& row, std::int64_t first, std::int64_t last, const Scratch<T>& scratch,
          T* const force[6]) {
-  for (int side = 0; side < 4; ++side) {
-    const int below_y = side & 1, below_z = side >> 1;
-    const std::ptrdiff_t at = -below_y * row.pitch - below_z * row.plane;
-    const CellRow<T> ux(row.u[0] + at, row.pitch, row.plane), uy(row.u[1] + at, row.pitch, row.plane),
-        uz(row.u[2] + at, row.pitch, row.plane);
-    const std::uint8_t* const cell = row.cell + at;
-    T *const ax = scratch.cell[0], *const ay = scratch.cell[1], *const az = scratch.cell[2];
-    // a = q d w with 8 d w = sum_s s x u and q = kt1/4 + kt2 + kt3.
-#pragma GCC ivdep
-    for (std::int64_t i = first - 1; i < last; ++i) {
-      const T q = tables.fit[cell[i]];
-      ax[i] = q * ((uz.odd_y(i) + uz.odd_y(i + 1)) - (uy.odd_z(i) + uy.odd_z(i + 1)));
-      ay[i] = q * ((ux.odd_z(i) + ux.odd_z(i + 1)) - (uz.even(i + 1) - uz.even(i)));
-      az[i] = q * ((uy.even(i + 1) - uy.even(i)) - (ux.odd_y(i) + ux.odd_y(i + 1)));
-    }
-    // Force a x s; s_x = +1 for the cell before the node, -1 for the one after it.
-    const T sy = below_y ? 1 : -1, sz = below_z ? 1 : -1;
-    T *const fx = force[0], *const fy = force[1], *const fz = force[2];
-#pragma GCC ivdep
-    for (std::int64_t i = first; i < last; ++i) {
-      fx[i] += sz * (ay[i] + ay[i - 1]) - sy * (az[i] + az[i - 1]);
-      fy[i] += (az[i - 1] - az[i]) - sz * (ax[i] + ax[i - 1]);
-      fz[i] += sy * (ax[i] + ax[i - 1]) - (ay[i - 1] - ay[i]);
-    }
-  }
+  with_materials(tables,
+                 [&](auto registers) { fit_with<T, registers.value>(tables, row, first, last, scratch, force); });
 }
 
 }  // namespace

@@ -60,6 +60,7 @@ struct Tables {
   Family family[3];
   const T* volumetric;  ///< kappa d / 16 of a material
   const T* fit;         ///< (kt1/4 + kt2 + kt3) / 8 of a material: the least-squares rotation of shared springs
+  int materials;        ///< in use, 0 (empty) included
   T half_d;             ///< d / 2
 };
 

@@ -12,16 +12,14 @@
 #include <string>
 
 #include "koshi/model.h"
+#include "lattice/partition.h"
 #include "model/regions.h"
 
 namespace koshi::model {
 namespace {
 
-// A process before it holds a model, with its libraries [bytes].
-constexpr double process = 35e6;
-
-// The same for static analyses, PETSc and its libraries included [bytes].
-constexpr double static_process = 80e6;
+// A process beside its model and state, with its libraries and their buffers [bytes].
+constexpr double process = 80e6;
 
 // The static solver beside the model and the state (statics/level.h, solve_static.cpp): PETSc's solution and three
 // vectors of conjugate gradients, without ghosts; on each level b, x and y in single precision with ghosts and padding;
@@ -125,10 +123,15 @@ double predicted_memory(const Definition& definition, int ranks) {
   if (statics) {
     // The solver's memory is free again when fields are written.
     const double solver = solver_bytes(grid, components, ranks) + mixed_bytes(definition, grid, components);
-    return static_process * ranks + bytes * static_cast<double>(whole.size()) + std::max(solver, sample);
+    return process * ranks + bytes * static_cast<double>(whole.size()) + std::max(solver, sample);
   }
   bytes += 8 * inertias + (orients ? 32 : 0);
-  return process * ranks + bytes * static_cast<double>(whole.size()) + sample;
+  // Boxes with ghosts and padding; and every rank keeps the materials of all cells where they come from an image.
+  const lattice::Partition partition = lattice::make_partition(grid, ranks);
+  double size = 0;
+  for (int rank = 0; rank < ranks; ++rank) size += static_cast<double>(partition.layout(rank).size());
+  const double image = static_cast<double>(definition.body.cells.size());
+  return (process + image) * ranks + bytes * size + sample;
 }
 
 void check_memory(const Definition& definition, int ranks) {
