@@ -322,7 +322,7 @@ void volumetric_with(const Tables<T>& tables, const Row<T>& row, std::int64_t fi
         uz(row.u[2] + at, row.pitch, row.plane);
     T* const p = scratch.cell[0];
     // p = kappa d^2 theta / 4 with theta = (sum_s s . u) / (4 d).
-    for (std::int64_t i = first - 1; i < last; i += width<T>) {
+    for (std::int64_t i = aligned(first - 1); i < last; i += width<T>) {
       const Vector kappa = S::template look_up<registers>(tables.volumetric, 0, row.cell + at + i);
       S::store(p + i, kappa * ((ux.even(i + 1) - ux.even(i)) + (uy.odd_y(i) + uy.odd_y(i + 1)) +
                                (uz.odd_z(i) + uz.odd_z(i + 1))));
@@ -357,7 +357,7 @@ void fit_with(const Tables<T>& tables, const Row<T>& row, std::int64_t first, st
         uz(row.u[2] + at, row.pitch, row.plane);
     T *const ax = scratch.cell[0], *const ay = scratch.cell[1], *const az = scratch.cell[2];
     // a = q d w with 8 d w = sum_s s x u and q = kt1/4 + kt2 + kt3.
-    for (std::int64_t i = first - 1; i < last; i += width<T>) {
+    for (std::int64_t i = aligned(first - 1); i < last; i += width<T>) {
       const Vector q = S::template look_up<registers>(tables.fit, 0, row.cell + at + i);
       S::store(ax + i, q * ((uz.odd_y(i) + uz.odd_y(i + 1)) - (uy.odd_z(i) + uy.odd_z(i + 1))));
       S::store(ay + i, q * ((ux.odd_z(i) + ux.odd_z(i + 1)) - (uz.even(i + 1) - uz.even(i))));
