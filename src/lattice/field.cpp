@@ -3,7 +3,6 @@
 #include <sys/mman.h>
 
 #include <cstdint>
-#include <cstdlib>
 #include <new>
 
 namespace koshi::lattice {
@@ -14,7 +13,7 @@ constexpr std::size_t line = 64, huge_page = std::size_t{1} << 21;
 /// Stands one cache line before the values.
 struct Origin {
   void* memory;
-  std::size_t mapped;  ///< bytes of a mapping of its own, 0: from the heap
+  std::size_t mapped;  ///< bytes of a mapping of its own; 0: from the heap
 };
 
 Origin& origin_of(void* values) { return *reinterpret_cast<Origin*>(static_cast<char*>(values) - line); }
@@ -39,8 +38,7 @@ void* allocate_values(std::size_t bytes) {
     madvise(reinterpret_cast<void*>(start), size - huge_page, MADV_HUGEPAGE);
 #endif
   } else {
-    memory = std::aligned_alloc(line, size);
-    if (memory == nullptr) throw std::bad_alloc();
+    memory = ::operator new (size, std::align_val_t{line});
     start = reinterpret_cast<std::uintptr_t>(memory);
   }
   void* values = reinterpret_cast<void*>(start + line);
@@ -54,7 +52,7 @@ void free_values(void* values) {
   if (origin.mapped != 0)
     munmap(origin.memory, origin.mapped);
   else
-    std::free(origin.memory);
+    ::operator delete (origin.memory, std::align_val_t{line});
 }
 
 }  // namespace koshi::lattice
