@@ -12,6 +12,7 @@ namespace koshi::lattice {
 
 /// Memory for the values of a field, 64-byte aligned and in huge pages where it fills them; throws std::bad_alloc.
 void* allocate_values(std::size_t bytes);
+/// Gives back what allocate_values() returned; nothing for a null pointer.
 void free_values(void* values);
 
 /// `components` values of type T per node, component c of node n at component(c)[n] with n = Layout::index. One block

@@ -33,10 +33,8 @@ void* allocate_values(std::size_t bytes) {
     memory = mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) throw std::bad_alloc();
     start = (reinterpret_cast<std::uintptr_t>(memory) + huge_page - 1) / huge_page * huge_page;
-#if defined(MADV_HUGEPAGE)
     // A wish: without huge pages the program runs all the same.
     madvise(reinterpret_cast<void*>(start), size - huge_page, MADV_HUGEPAGE);
-#endif
   } else {
     memory = ::operator new (size, std::align_val_t{line});
     start = reinterpret_cast<std::uintptr_t>(memory);
