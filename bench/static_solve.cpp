@@ -7,6 +7,7 @@
 #include "koshi/statics.h"
 #include "statics/petsc.h"
 #include "statics/preconditioner.h"
+#include "support/cantilever.h"
 
 namespace koshi {
 namespace {
@@ -30,27 +31,14 @@ constexpr Body bodies[] = {
 
 // The paper's cantilever, `refinement` times finer than 18 x 78 x 18 cells.
 model::Definition cantilever(const Body& body, int refinement) {
-  model::Definition definition;
-  definition.lattice.spacing = 0.001 / refinement;
+  model::Definition definition = test::cantilever(0.001 / refinement, body.nu);
   definition.lattice.kinematics = body.kinematics;
-  definition.body.size = {0.018, 0.078, 0.018};
-  definition.body.material = "rock";
-  definition.materials = {{"rock", {1112e6, body.nu, 2000}}, {"soft", {111.2e6, body.nu, 2000}}};
+  definition.materials.push_back({"soft", {111.2e6, body.nu, 2000}});
   if (body.mixed) {
     std::minstd_rand random;
     for (int n = 0; n < 18 * 78 * 18 * refinement * refinement * refinement; ++n)
       definition.body.cells.push_back(random() % 10 < 3 ? 2 : 1);
   }
-  model::BoundaryDefinition root;
-  root.name = "root";
-  root.selection.face = model::Face::y_min;
-  root.fix.fill(true);
-  definition.boundaries = {root};
-  model::LoadDefinition load;
-  load.name = "tip load";
-  load.selection.face = model::Face::y_max;
-  load.force = Vec3{9.8, 0, 0};
-  definition.loads = {load};
   return definition;
 }
 
