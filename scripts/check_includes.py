@@ -17,11 +17,14 @@ ARROWS = {
     "material": ["lattice"],
     "model": ["material"],
     "mechanics": ["model"],
+    "calibration": ["mechanics"],
     "dynamics": ["mechanics"],
     "statics": ["mechanics"],
     "io": ["model"],
-    "driver": ["dynamics", "statics", "io"],
-    "apps": ["driver"],
+    "report": ["calibration", "io"],
+    "driver": ["dynamics", "statics", "report"],
+    "study": ["driver"],
+    "apps": ["study"],
     "python": ["driver"],
 }
 
@@ -44,8 +47,6 @@ PUBLIC = {
     "input.h": "io",
     "output.h": "io",
     "run.h": "driver",
-    "paper.h": "driver",
-    "report.h": "driver",
 }
 
 # Pattern of a library's headers -> (name, where they may be included: path prefixes).
@@ -57,7 +58,7 @@ LIBRARIES = {
     r"(hdf5|H5).*": ("HDF5", ["src/io/"]),
     r"toml\+\+/.*": ("toml++", ["src/io/"]),
     r"udunits2\.h": ("UDUNITS", ["src/io/"]),
-    r"nlohmann/.*": ("JSON", ["src/io/", "src/driver/", "apps/"]),
+    r"nlohmann/.*": ("JSON", ["src/io/", "src/calibration/", "src/driver/", "src/report/", "src/study/", "apps/"]),
     r"CLI/.*": ("CLI11", ["apps/"]),
     r"pybind11/.*": ("pybind11", ["python/"]),
 }

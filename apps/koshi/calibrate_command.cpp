@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "base/suggest.h"
+#include "calibration/calibrate.h"
 #include "commands.h"
-#include "driver/calibrate.h"
 #include "io/units.h"
 #include "koshi/error.h"
 #include "model/choices.h"
@@ -65,14 +65,14 @@ void run(const Options& options) {
       (*size)[axis] = io::parse_quantity(options.size[axis], io::Dimension::length, Place{"--size"});
   }
 
-  const driver::Calibrated calibrated = driver::calibrate(lattice, elastic, size);
+  const calibration::Calibrated calibrated = calibration::calibrate(lattice, elastic, size);
   if (options.json)
-    std::cout << driver::calibration_json(calibrated).dump(2) << '\n';
+    std::cout << calibration::calibration_json(calibrated).dump(2) << '\n';
   else
-    std::cout << driver::calibration_report(calibrated);
+    std::cout << calibration::calibration_report(calibrated);
   if (!options.dispersion.empty()) {
     std::ofstream file(options.dispersion);
-    if (!(file << driver::dispersion_csv(calibrated) << std::flush))
+    if (!(file << calibration::dispersion_csv(calibrated) << std::flush))
       throw InputError(Place{"--dispersion"}, fmt::format("cannot write \"{}\"", options.dispersion));
   }
   // The report says so too; the exit code tells scripts.

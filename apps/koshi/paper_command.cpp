@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
 
 #include "commands.h"
-#include "driver/paper.h"
+#include "study/paper.h"
 
 namespace koshi::app {
 
@@ -14,7 +14,7 @@ void add_paper_command(CLI::App& app) {
   command->add_flag("--quiet", *quiet, "Print the tables only");
   command->callback([directory, quiet] {
     const Environment environment(nullptr, nullptr);
-    driver::run_paper(*directory, *quiet, Communicator::world());
+    study::run_paper(*directory, *quiet, Communicator::world());
   });
 }
 

@@ -2,7 +2,7 @@
 #include <iostream>
 
 #include "commands.h"
-#include "driver/report.h"
+#include "report/report.h"
 
 namespace koshi::app {
 
@@ -11,7 +11,7 @@ void add_report_command(CLI::App& app) {
   const auto directory = std::make_shared<std::filesystem::path>();
   command->add_option("directory", *directory, "Output directory of a run")->required();
   command->callback([directory] {
-    driver::write_report(*directory);
+    report::write_report(*directory);
     std::cout << "report in " << (*directory / "report.html").string() << '\n';
   });
 }

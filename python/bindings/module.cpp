@@ -5,9 +5,9 @@
 
 #include <memory>
 
-#include "driver/calibrate.h"
+#include "calibration/calibrate.h"
 #include "io/cell_image.h"
-#include "io/toml_read.h"
+#include "io/toml/read.h"
 #include "koshi/communicator.h"
 #include "koshi/input.h"
 #include "simulation.h"
@@ -32,7 +32,8 @@ void set_cells(model::Definition& definition, const Values& values) {
 
 std::string calibrate(const model::Definition& definition, bool of_body) {
   const auto size = of_body ? std::optional(definition.body.size) : std::nullopt;
-  return driver::calibration_json(driver::calibrate(definition.lattice, definition.materials.front().elastic, size))
+  return calibration::calibration_json(
+             calibration::calibrate(definition.lattice, definition.materials.front().elastic, size))
       .dump();
 }
 

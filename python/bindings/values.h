@@ -3,7 +3,7 @@
 
 #include <pybind11/pybind11.h>
 
-#include "io/toml_value.h"
+#include "io/toml/value.h"
 
 namespace koshi::python {
 

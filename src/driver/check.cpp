@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-#include "driver/calibrate.h"
+#include "calibration/calibrate.h"
 #include "driver/simulation.h"
 #include "driver/warnings.h"
 #include "koshi/input.h"
@@ -59,7 +59,8 @@ std::string check(const model::Definition& definition, const Communicator& commu
   for (const std::string& warning : found) text += "warning       " + warning + "\n";
   for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
     text += fmt::format("\n# material {}\n", definition.materials[m - 1].name) +
-            calibration_report(examine(definition.lattice, model.materials[m], model.lattice.springs[m]));
+            calibration::calibration_report(
+                calibration::examine(definition.lattice, model.materials[m], model.lattice.springs[m]));
   return text;
 }
 

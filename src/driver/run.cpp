@@ -10,7 +10,6 @@
 #include "base/progress.h"
 #include "driver/checkpoints.h"
 #include "driver/fields.h"
-#include "driver/report.h"
 #include "driver/results.h"
 #include "driver/run_simulation.h"
 #include "io/cell_image.h"
@@ -19,6 +18,7 @@
 #include "io/output_directory.h"
 #include "io/summary.h"
 #include "koshi/input.h"
+#include "report/report.h"
 
 namespace koshi::driver {
 
@@ -29,7 +29,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   // Everything that can be wrong with the input is found before the output directory is made; the search for the stable
   // step comes before the state takes its memory, since it needs as much.
   collectively(communicator, [&] {
-    if (definition.output.report && communicator.is_root()) check_report_template();
+    if (definition.output.report && communicator.is_root()) report::check_report_template();
   });
   const std::vector<std::string>& warnings = simulation.prepare();
   if (!options.quiet && communicator.is_root())
@@ -86,7 +86,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   if (equilibrium || definition.output.checkpoint_every || definition.output.checkpoint_wall) checkpoints.write(state);
   io::write_summary(communicator, options.directory, summary(model, state, outcome, peak_memory(communicator)));
   collectively(communicator, [&] {
-    if (definition.output.report && communicator.is_root()) write_report(options.directory);
+    if (definition.output.report && communicator.is_root()) report::write_report(options.directory);
   });
   return outcome;
 }

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "io/toml_key.h"
+#include "io/toml/key.h"
 #include "koshi/input.h"
 #include "support/broken_input.h"
 

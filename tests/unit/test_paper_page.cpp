@@ -3,13 +3,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "driver/paper.h"
-#include "driver/paper_report.h"
 #include "driver/run_simulation.h"
 #include "io/files.h"
+#include "study/paper.h"
+#include "study/tables.h"
 #include "support/temporary_directory.h"
 
-namespace koshi::driver {
+namespace koshi::study {
 namespace {
 
 using json = nlohmann::ordered_json;
@@ -94,4 +94,4 @@ TEST(PaperPage, HoldsTablesFiguresAndBodiesOfAllLattices) {
 }
 
 }  // namespace
-}  // namespace koshi::driver
+}  // namespace koshi::study

@@ -1,5 +1,5 @@
 // A run's output directory as the data of a report, and the page around them.
-#include "driver/report.h"
+#include "report/report.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,8 +10,6 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "driver/report_history.h"
-#include "driver/report_mesh.h"
 #include "io/field_writer.h"
 #include "io/files.h"
 #include "io/history_reader.h"
@@ -19,9 +17,11 @@
 #include "io/report_block.h"
 #include "io/summary.h"
 #include "koshi/input.h"
+#include "report/history.h"
+#include "report/mesh.h"
 #include "support/temporary_directory.h"
 
-namespace koshi::driver {
+namespace koshi::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -363,4 +363,4 @@ TEST(HistoryReader, QuotedNamesUnitsAndARowCutShort) {
 }
 
 }  // namespace
-}  // namespace koshi::driver
+}  // namespace koshi::report

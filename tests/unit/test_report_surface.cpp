@@ -1,5 +1,5 @@
 // The surface of voxel bodies: closed, facing outwards, of the right volume, thinned without losing thin parts.
-#include "driver/report_surface.h"
+#include "report/surface.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <map>
 #include <set>
 
-namespace koshi::driver {
+namespace koshi::report {
 namespace {
 
 constexpr SurfaceLimits everything{1'000'000, 1'000'000};
@@ -150,4 +150,4 @@ TEST(ReportSurface, ThinningStaysBelowTheLimitAndOnTheBody) {
 }
 
 }  // namespace
-}  // namespace koshi::driver
+}  // namespace koshi::report

@@ -1,0 +1,138 @@
+// Keys of the whole input, [lattice], [body], [material.NAME] and [[region]].
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/toml/key.h"
+
+namespace koshi::io {
+
+using namespace model;
+
+const std::vector<Key<Definition>>& keys_of(Tag<Definition>) {
+  using D = Definition;
+  static const std::vector<Key<D>> keys{
+      key<D>("title", &D::title, "What the case is, for people.", {.example = R"("Cantilever, exact springs")"}),
+      key<D>("lattice", &D::lattice, "Unit cell, spacing and springs.", {.required = true}),
+      key<D>("body", &D::body, "The box of cells.", {.required = true}),
+      key<D>("material", &D::materials, "Elastic materials by name, [material.NAME]; at least one.",
+             {.required = true}),
+      key<D>("region", &D::regions, "Shapes, [[region]], that give cells another material or none; later ones win."),
+      key<D>("boundary", &D::boundaries,
+             "Prescribed motions, [[boundary]], each of the nodes of one face, box or point."),
+      key<D>("load", &D::loads,
+             "Loads, [[load]]: one of force, traction, pressure on the nodes of one face, box or point, or an "
+             "acceleration of "
+             "the whole body."),
+      key<D>("analysis", &D::analysis, "What is computed."),
+      key<D>("probe", &D::probes, "Values reported by name, [[probe]], each from the nodes of one face, box or point."),
+      key<D>("output", &D::output, "Fields, samples and checkpoints."),
+  };
+  return keys;
+}
+
+const std::vector<Key<LatticeDefinition>>& keys_of(Tag<LatticeDefinition>) {
+  using D = LatticeDefinition;
+  const std::vector<std::string> deciding{"calibration", "springs", "cell"};
+  const auto paper = [](const D& lattice) {
+    Definition definition;
+    definition.lattice = lattice;
+    return definition.calibration() == material::Calibration::paper;
+  };
+  static const std::vector<Key<D>> keys{
+      key<D>("cell", &D::cell, "Unit cell: edges, face diagonals (II, III), body diagonals (III)."),
+      key<D>("spacing", &D::spacing, "Side d of a cell.",
+             {.dimension = Dimension::length, .required = true, .range = {.above = 0}, .example = R"("0.2 cm")"}),
+      key<D>("springs", &D::springs, "Springs belong to cells (shared), or every bond carries its full stiffness."),
+      key<D>("calibration", &D::calibration,
+             "How E and nu become springs; unset: bending-exact for shared Cube-III, isotropic for shared Cube-I and "
+             "-II, paper for plain springs."),
+      key<D>("kinematics", &D::kinematics, "Three rotations per node, or the rotation fitted to each cell."),
+      key<D>("equations", &D::equations,
+             "Entries of C set equal to the elastic tensor, such as \"C1122\" or \"C1111-C1122\": one for Cube-I, two "
+             "for Cube-II and -III; unset: those of the paper.",
+             {.example = R"(["C1122", "C1212"])"})
+          .only_for("calibration \"paper\"", deciding, paper),
+      key<D>("axes", &D::axes, "Which body axes are 1, 2, 3 of C: a permutation of \"xyz\".", {.example = R"("yxz")"})
+          .only_for("calibration \"paper\"", deciding, paper),
+  };
+  return keys;
+}
+
+const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
+  using D = BodyDefinition;
+  const auto plain = [](const D& body) { return body.image.empty(); };
+  const auto imaged = [](const D& body) { return !body.image.empty(); };
+  static const std::vector<Key<D>> keys{
+      key<D>("origin", &D::origin, "Lower corner of the box.",
+             {.dimension = Dimension::length, .example = R"(["0 mm", "0 mm", "-5 mm"])"}),
+      key<D>("size", &D::size, "Edges of the box, multiples of the spacing.",
+             {.dimension = Dimension::length,
+              .required = true,
+              .range = {.above = 0},
+              .example = R"(["1.8 cm", "7.8 cm", "1.8 cm"])"})
+          .only_for("a body without an image", {"image"}, plain),
+      key<D>("material", &D::material, "Material of the cells, or \"void\".",
+             {.required = true, .example = R"("rock")"})
+          .only_for("a body without an image", {"image"}, plain),
+      key<D>("periodic", &D::periodic, "Opposite faces across x, y, z are joined.",
+             {.example = "[true, false, false]"}),
+      key<D>("image", &D::image, "File of cell values (.npy, .vti, .mha, .mhd, .nrrd), one value a cell.",
+             {.example = R"("scan.nrrd")"}),
+      key<D>("materials", &D::image_materials, "Material, or \"void\", of each value in the image.",
+             {.required = true, .example = R"({0 = "void", 1 = "rock"})"})
+          .only_for("a body with an image", {"image"}, imaged),
+  };
+  return keys;
+}
+
+const std::vector<Key<MaterialDefinition>>& keys_of(Tag<MaterialDefinition>) {
+  using D = MaterialDefinition;
+  static const std::vector<Key<D>> keys{
+      key<D>("youngs_modulus", [](auto& m) -> auto& { return m.elastic.youngs_modulus; }, "Young's modulus E.",
+             {.dimension = Dimension::pressure, .required = true, .range = {.above = 0}, .example = R"("1112 MPa")"}),
+      key<D>("poissons_ratio", [](auto& m) -> auto& { return m.elastic.poissons_ratio; }, "Poisson's ratio nu.",
+             {.required = true, .range = {.above = -1, .below = 0.5}, .example = "0.18"}),
+      key<D>("density", [](auto& m) -> auto& { return m.elastic.density; }, "Mass per volume.",
+             {.dimension = Dimension::density, .required = true, .range = {.above = 0}, .example = R"("2000 kg/m^3")"}),
+  };
+  return keys;
+}
+
+const std::vector<Key<RegionDefinition>>& keys_of(Tag<RegionDefinition>) {
+  using D = RegionDefinition;
+  using Shape = D::Shape;
+  // A key that some shapes have and then need.
+  const auto of = [](const std::vector<Shape>& shapes, Key<D> key) {
+    std::string condition;
+    for (const Shape shape : shapes)
+      condition += (condition.empty() ? "shape " : " or ") + toml_text(choice_name(shape));
+    return std::move(key).only_for(condition, {"shape"}, [shapes](const D& region) {
+      return std::find(shapes.begin(), shapes.end(), region.shape) != shapes.end();
+    });
+  };
+  const About size{.dimension = Dimension::length, .required = true, .range = {.above = 0}, .example = R"("12 mm")"};
+  const auto at = [](const std::string& example) {
+    return About{.dimension = Dimension::length, .required = true, .example = example};
+  };
+  static const std::vector<Key<D>> keys{
+      key<D>("shape", &D::shape, "Cells whose centre lies inside the shape belong to the region.", {.required = true}),
+      key<D>("material", &D::material, "A material's name, or \"void\".", {.required = true, .example = R"("clay")"}),
+      of({Shape::box}, key<D>("min", &D::min, "Lower corner.", at(R"([0, 0, 0])"))),
+      of({Shape::box}, key<D>("max", &D::max, "Upper corner.", at(R"(["10 mm", "10 mm", "5 mm"])"))),
+      of({Shape::sphere}, key<D>("center", &D::center, "Centre.", at(R"(["20 mm", "20 mm", "50 mm"])"))),
+      of({Shape::sphere, Shape::cylinder}, key<D>("radius", &D::radius, "Radius.", size)),
+      of({Shape::cylinder}, key<D>("start", &D::start, "One end of the axis.", at(R"(["30 mm", "0 mm", "25 mm"])"))),
+      of({Shape::cylinder}, key<D>("end", &D::end, "Other end of the axis.", at(R"(["30 mm", "40 mm", "25 mm"])"))),
+      of({Shape::half_space}, key<D>("point", &D::point, "A point of the border plane.", at(R"([0, 0, "3 mm"])"))),
+      of({Shape::half_space}, key<D>("normal", &D::normal, "Direction that points out of the half-space.",
+                                     {.required = true, .example = "[0, 0, 1]"})),
+      of({Shape::stl},
+         key<D>("file", &D::file, "File of a closed surface.", {.required = true, .example = R"("implant.stl")"})),
+      of({Shape::stl}, key<D>("scale", &D::scale, "Length of one unit of the file.",
+                              {.dimension = Dimension::length, .range = {.above = 0}, .example = R"("1 mm")"})),
+  };
+  return keys;
+}
+
+}  // namespace koshi::io

@@ -1,0 +1,74 @@
+// Keys of [analysis], its damping, and [output].
+#include "io/toml/key.h"
+
+namespace koshi::io {
+
+using namespace model;
+
+const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
+  using D = AnalysisDefinition;
+  using Type = D::Type;
+  const auto stepped = [](const D& analysis) { return analysis.type != Type::statics; };
+  const auto of_stepped = [&](Key<D> key) {
+    return std::move(key).only_for("type \"quasi-static\" or \"dynamic\"", {"type"}, stepped);
+  };
+  static const std::vector<Key<D>> keys{
+      key<D>("type", &D::type,
+             "Equilibrium solved directly, equilibrium reached by damped stepping, or motion over time."),
+      key<D>("tolerance", &D::tolerance,
+             "Static: relative residual of the solution; quasi-static: unbalanced-force ratio at rest.",
+             {.range = {.above = 0, .below = 1}, .example = "1e-6"})
+          .only_for("type \"static\" or \"quasi-static\"", {"type"},
+                    [](const D& analysis) { return analysis.type != Type::dynamic; }),
+      of_stepped(key<D>("duration", &D::duration,
+                        "Simulated time; required for dynamic, the most that quasi-static may take.",
+                        {.dimension = Dimension::time, .range = {.above = 0}, .example = R"("0.32 s")"})),
+      of_stepped(key<D>("time_step", &D::time_step, "Time step; \"auto\": the stable limit times safety.",
+                        {.dimension = Dimension::time, .unset_word = "auto", .range = {.above = 0}})),
+      of_stepped(key<D>("allow_unstable_step", &D::allow_unstable_step,
+                        "Run with a time step above the stable limit all the same.")),
+      of_stepped(key<D>("safety", &D::safety, "Ratio of the automatic time step to the stable limit.",
+                        {.range = {.above = 0, .at_most = 1}, .example = "0.9"})),
+      of_stepped(key<D>("damping", &D::damping,
+                        "Damping of the motion; unset: local with factor 0.8 for quasi-static, none for dynamic.",
+                        {.title = "damping", .example = R"({kind = "local", factor = 0.8})"})),
+      key<D>("start_from", &D::start_from,
+             "Output directory of an earlier run whose displacements are the start of this one.",
+             {.example = R"("out/loaded")"}),
+  };
+  return keys;
+}
+
+const std::vector<Key<DampingDefinition>>& keys_of(Tag<DampingDefinition>) {
+  using D = DampingDefinition;
+  using Kind = D::Kind;
+  static const std::vector<Key<D>> keys{
+      key<D>("kind", &D::kind, "Local non-viscous damping, viscous damping, or none."),
+      key<D>("factor", &D::factor, "Part of the unbalanced force that is taken away.",
+             {.range = {.at_least = 0, .below = 1}, .example = "0.8"})
+          .only_for("kind \"local\"", {"kind"}, [](const D& damping) { return damping.kind == Kind::local; }),
+      key<D>("rate", &D::rate, "Damping force over mass times velocity.",
+             {.dimension = Dimension::rate, .required = true, .range = {.at_least = 0}})
+          .only_for("kind \"viscous\"", {"kind"}, [](const D& damping) { return damping.kind == Kind::viscous; }),
+  };
+  return keys;
+}
+
+const std::vector<Key<OutputDefinition>>& keys_of(Tag<OutputDefinition>) {
+  using D = OutputDefinition;
+  const About time{.dimension = Dimension::time, .range = {.above = 0}, .example = R"("10 ms")"};
+  static const std::vector<Key<D>> keys{
+      key<D>("fields", &D::fields, "Fields to write.",
+             {.allowed = {field_names.begin(), field_names.end()}, .example = R"(["displacement", "stress"])"}),
+      key<D>("every", &D::every, "Simulated time between samples of the fields; unset: the end only.", time),
+      key<D>("history_every", &D::history_every,
+             "Simulated time between rows of history.csv; unset: about 200 rows in all.", time),
+      key<D>("checkpoint_every", &D::checkpoint_every, "Simulated time between checkpoints.", time),
+      key<D>("checkpoint_every_wall", &D::checkpoint_wall, "Wall time between checkpoints.",
+             {.dimension = Dimension::time, .range = {.above = 0}, .example = R"("1 hour")"}),
+      key<D>("report", &D::report, "Write report.html at the end."),
+  };
+  return keys;
+}
+
+}  // namespace koshi::io

@@ -1,0 +1,117 @@
+// Forms of single values: flags, quantities, words.
+#include <fmt/format.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "io/toml/form.h"
+
+namespace koshi::io {
+
+void wrong_form(const Value& value, const Spec& spec, const std::string& expected) {
+  throw InputError(value.place, fmt::format("{} is {}; expected {}", spec.name, describe(value), expected));
+}
+
+void unknown_word(const Place& place, const std::string& what, const std::string& word,
+                  const std::vector<std::string>& allowed) {
+  const auto meant = nearest(word, allowed);
+  const std::string question = meant ? fmt::format("did you mean \"{}\"? ", *meant) : "";
+  throw InputError(place, fmt::format("unknown {} \"{}\"; {}allowed: {}", what, word, question, quoted_list(allowed)));
+}
+
+void words_schema(const std::vector<std::string>& words, Json& out) { out["enum"] = words; }
+
+namespace {
+
+void range_schema(const Range& range, Json& out) {
+  if (range.above) out["exclusiveMinimum"] = *range.above;
+  if (range.at_least) out["minimum"] = *range.at_least;
+  if (range.below) out["exclusiveMaximum"] = *range.below;
+  if (range.at_most) out["maximum"] = *range.at_most;
+}
+
+}  // namespace
+
+// Control characters are the only ones that TOML does not take as they are.
+std::string toml_text(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    const auto code = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\')
+      result += {'\\', c};
+    else if (code < 0x20 || code == 0x7f)
+      result += fmt::format("\\u{:04X}", code);
+    else
+      result += c;
+  }
+  return result + '"';
+}
+
+std::string toml_key(const std::string& key) {
+  constexpr std::string_view bare = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
+  return key.empty() || key.find_first_not_of(bare) != std::string::npos ? toml_text(key) : key;
+}
+
+Form<bool> form(Tag<bool>) {
+  return {
+      .read =
+          [](const Value& value, const Spec& spec, bool& out) {
+            const bool* flag = std::get_if<bool>(&value.data);
+            if (flag == nullptr) wrong_form(value, spec, "true or false");
+            out = *flag;
+          },
+      .write = [](const bool& value, const Spec&) { return std::string(value ? "true" : "false"); },
+      .expected = [](const Spec&) { return std::string("true or false"); },
+      .schema = [](const Spec&, Json& out) { out["type"] = "boolean"; },
+  };
+}
+
+Form<double> form(Tag<double>) {
+  return {
+      .read =
+          [](const Value& value, const Spec& spec, double& out) {
+            if (const auto* integer = std::get_if<std::int64_t>(&value.data)) {
+              out = static_cast<double>(*integer);
+            } else if (const auto* number = std::get_if<double>(&value.data)) {
+              if (!std::isfinite(*number)) wrong_form(value, spec, "a finite number");
+              out = *number;
+            } else if (value.text() != nullptr) {
+              out = parse_quantity(*value.text(), spec.dimension, value.place);
+            } else {
+              wrong_form(value, spec, expected_quantity(spec.dimension));
+            }
+          },
+      .write =
+          [](const double& value, const Spec&) {
+            // The shortest text that reads back as the same number; a point or exponent makes it a float of TOML.
+            const std::string text = fmt::format("{}", value);
+            return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+          },
+      .expected = [](const Spec& spec) { return expected_quantity(spec.dimension); },
+      .schema =
+          [](const Spec& spec, Json& out) {
+            out["type"] = {"number", "string"};
+            const auto& w = words(spec.dimension);
+            if (!w.si_unit.empty()) out["unit"] = w.si_unit;
+            range_schema(spec.range, out);
+            if (!w.si_unit.empty()) out["examples"] = {w.example};
+          },
+  };
+}
+
+Form<std::string> form(Tag<std::string>) {
+  return {
+      .read =
+          [](const Value& value, const Spec& spec, std::string& out) {
+            if (value.text() == nullptr) wrong_form(value, spec, "a text in quotes");
+            if (value.text()->empty())
+              throw InputError(value.place, fmt::format("{} is empty; give it a text or leave it out", spec.name));
+            out = *value.text();
+          },
+      .write = [](const std::string& value, const Spec&) { return value.empty() ? std::string() : toml_text(value); },
+      .expected = [](const Spec&) { return std::string("a text in quotes"); },
+      .schema = [](const Spec&, Json& out) { out["type"] = "string"; },
+  };
+}
+
+}  // namespace koshi::io

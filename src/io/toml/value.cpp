@@ -1,0 +1,121 @@
+#include "io/toml/value.h"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+
+namespace koshi::io {
+namespace {
+
+Place place_of(const toml::source_region& source, const std::string& file_name) {
+  return {file_name, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+}
+
+Value value_of(const toml::node& node, const std::string& file_name) {
+  Value value;
+  value.place = place_of(node.source(), file_name);
+  if (const auto* table = node.as_table()) {
+    Table entries;
+    for (const auto& [key, child] : *table)
+      entries.push_back({std::string(key.str()), place_of(key.source(), file_name), value_of(child, file_name)});
+    // The parser sorts by key; messages should name the first error of the file.
+    const auto before = [](const Entry& a, const Entry& b) {
+      return std::pair(a.place.line, a.place.column) < std::pair(b.place.line, b.place.column);
+    };
+    std::stable_sort(entries.begin(), entries.end(), before);
+    value.data = std::move(entries);
+  } else if (const auto* array = node.as_array()) {
+    Array elements;
+    for (const auto& child : *array) elements.push_back(value_of(child, file_name));
+    value.data = std::move(elements);
+  } else if (const auto* text = node.as_string()) {
+    value.data = text->get();
+  } else if (const auto* integer = node.as_integer()) {
+    value.data = integer->get();
+  } else if (const auto* number = node.as_floating_point()) {
+    value.data = number->get();
+  } else if (const auto* flag = node.as_boolean()) {
+    value.data = flag->get();
+  } else {
+    value.data = DateTime{};
+  }
+  return value;
+}
+
+// Every dot of a key nests one table in another, and trees are walked by recursion: a key of a million dots would
+// exhaust the stack. No key of a case has more than a few.
+void refuse_deep_keys(std::string_view text, const std::string& file_name) {
+  constexpr int most = 100;
+  int line = 1;
+  int column = 0;
+  int dots = 0;
+  bool in_comment = false;
+  for (const char c : text) {
+    ++column;
+    if (c == '\n') {
+      ++line;
+      column = 0;
+    }
+    if (c == '#') in_comment = true;
+    if (c == '\n') in_comment = false;
+    if (c == '.' && !in_comment && ++dots > most)
+      throw InputError({file_name, line, column}, fmt::format("more than {} dots in a row; keys have a few", most));
+    if (std::string_view(",=[]{}\n").find(c) != std::string_view::npos) dots = 0;
+  }
+}
+
+// The parser's words, with what would be right where they do not say it.
+std::string syntax_message(std::string_view description) {
+  constexpr std::string_view prefix = "Error while parsing ";
+  const bool usual = description.starts_with(prefix);
+  if (usual) description.remove_prefix(prefix.size());
+  const auto mentions = [&](std::string_view words) { return description.find(words) != std::string_view::npos; };
+  std::string hint;
+  if (mentions("determine value type") || mentions("comment or whitespace"))
+    hint = "; text and quantities with a unit need quotes, such as \"0.2 cm\"";
+  if (mentions("unescaped control characters")) hint = "; a text ends with a quote on its own line";
+  if (mentions("cannot redefine")) hint = "; every key and table may stand once";
+  return fmt::format("cannot read {}{}{}", usual ? "" : "the file: ", description, hint);
+}
+
+}  // namespace
+
+const Entry* find(const Table& table, std::string_view key) {
+  const auto found = std::find_if(table.begin(), table.end(), [&](const Entry& entry) { return entry.key == key; });
+  return found == table.end() ? nullptr : &*found;
+}
+
+Entry* find(Table& table, std::string_view key) {
+  return const_cast<Entry*>(find(static_cast<const Table&>(table), key));
+}
+
+std::string describe(const Value& value) {
+  struct Words {
+    std::string operator()(bool flag) const { return flag ? "true" : "false"; }
+    std::string operator()(std::int64_t number) const { return fmt::format("the number {}", number); }
+    std::string operator()(double number) const { return fmt::format("the number {}", number); }
+    std::string operator()(const std::string& text) const {
+      constexpr std::size_t longest = 60;
+      if (text.size() > longest) return "a long text";
+      return fmt::format("the text \"{}\"", text);
+    }
+    std::string operator()(const DateTime&) const { return "a date or time"; }
+    std::string operator()(const Array& list) const {
+      return list.empty() ? "an empty list" : fmt::format("a list of {}", list.size());
+    }
+    std::string operator()(const Table& table) const { return table.empty() ? "an empty table" : "a table"; }
+  };
+  return std::visit(Words{}, value.data);
+}
+
+Value parse_toml(std::string_view text, const std::string& file_name) {
+  refuse_deep_keys(text, file_name);
+  try {
+    return value_of(toml::parse(text, std::string_view(file_name)), file_name);
+  } catch (const toml::parse_error& error) {
+    throw InputError(place_of(error.source(), file_name), syntax_message(error.description()));
+  }
+}
+
+}  // namespace koshi::io
