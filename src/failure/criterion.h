@@ -1,0 +1,34 @@
+// When a material cracks: Rankine's tensile cut-off with Mohr and Coulomb's limit (theory, section 12).
+#pragma once
+
+#include "failure/principal.h"
+#include "koshi/fracture.h"
+
+namespace koshi::failure {
+
+class Criterion {
+ public:
+  explicit Criterion(const material::Fracture& fracture);
+
+  /// Equivalent stress [Pa] max(s1, f_t/f_c (m s1 - s3)) of principal stresses s1 >= s2 >= s3 (tension positive): the
+  /// material cracks where it reaches f_t. Negative where nothing pulls or shears.
+  double equivalent(const Vec3& stress) const {
+    const double tension = stress[0];
+    return std::max(tension, ratio_ * (m_ * stress[0] - stress[2]));
+  }
+
+  /// Unit normal of the plane that cracks: across s1 in tension; in shear the plane on which Mohr and Coulomb's limit
+  /// is reached first, its normal at 45 degrees + phi/2 from s3 towards s1.
+  Vec3 normal(const Principal& stress) const;
+
+  /// Never below equivalent() of this stress; needs no principal values.
+  double bound(const Tensor6& stress) const;
+
+ private:
+  double ratio_ = 0;  // f_t/f_c, 0 without a shear limit
+  double m_ = 1;
+  double spread_ = 0;  // sqrt(m^2 + m + 1)
+  Vec3 shear_{};       // normal of the shear plane in the frame of principal directions
+};
+
+}  // namespace koshi::failure
