@@ -111,6 +111,20 @@ def test_static_analysis_tells_its_iterations_and_shows_its_solution(case):
     assert simulation.run().measurement.probes["top"][2] == pytest.approx(3 * PULLED, rel=1e-9)
 
 
+def test_a_hinge_is_solved_or_refused():
+    # Held along an edge parallel to x: nothing resists a rotation about it, and a pull along x does not turn it.
+    parts = {
+        "boundary": [koshi.Boundary("hinge", box={"min": (0, 0, 0), "max": ("2 mm", 0, 0)}, fix=["x", "y", "z"])],
+        "analysis": koshi.Analysis("static"),
+    }
+    pulled = koshi.Load("pull", face="z-max", force=("1 N", 0, 0))
+    result = koshi.run(beam(**parts, load=[pulled]))
+    assert result.measurement.probes["support"] == pytest.approx([-1, 0, 0], abs=1e-7)
+    pulled.force = (0, 0, "1 N")
+    with pytest.raises(koshi.InputError, match="is free to rotate about x, and its loads do not balance"):
+        koshi.run(beam(**parts, load=[pulled]))
+
+
 def test_failures_raise(case):
     case.analysis = koshi.Analysis("quasi-static", tolerance=1e-12, duration="1 us")
     with pytest.raises(koshi.RunError, match="not at rest after"):

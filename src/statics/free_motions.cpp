@@ -2,9 +2,11 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <cstring>
 #include <span>
 
@@ -138,7 +140,7 @@ FreeMotions::FreeMotions(const model::Model& model, const FixedNodes& fixed)
     V = factor.matrixL().solve(V.transpose()).transpose().eval();
     for (double& x : centre) x /= 2;
     free_of_part[p] = static_cast<std::int32_t>(free_.size());
-    free_.push_back({static_cast<std::int32_t>(p), centre, V});
+    free_.push_back({static_cast<std::int32_t>(p), centre, size, V});
   }
   if (free_.empty()) return;
   lattice::for_each_owned(model.layout(), [&](auto i, auto j, auto k, auto) {
@@ -216,8 +218,11 @@ void FreeMotions::require_balance(const double* b) const {
   for (std::size_t f = 0; f < free_.size(); ++f) {
     const Eigen::MatrixXd& V = free_[f].motions;
     const Eigen::VectorXd along = V.transpose() * net[f];
-    const Eigen::VectorXd scale = V.cwiseAbs().transpose() * gross[f];
-    if (along.norm() <= 1e-6 * scale.norm()) continue;
+    // Against the work of the same forces if all of them pushed along the motion: rounding alone leaves no zero.
+    const auto size = [&](const auto& w, double length) {
+      return w.topRows(3).norm() + length * w.bottomRows(3).norm();
+    };
+    if (along.norm() <= 1e-6 * size(V, free_[f].size) * size(gross[f], 1 / free_[f].size)) continue;
     throw InputError(model_.definition.places.find("boundary"),
                      fmt::format("{} is free to {}, and its loads do not balance; fix it or balance the loads",
                                  title(free_[f].part), in_words(V)));
@@ -243,33 +248,51 @@ std::string FreeMotions::title(std::int32_t p) const {
                      part.cells, lo[0], hi[0], lo[1], hi[1], lo[2], hi[2]);
 }
 
+namespace {
+
+// Orthonormal columns that span the columns of A, as far as they are longer than `least`. A may have none.
+Eigen::MatrixXd orthonormal(const Eigen::MatrixXd& A, double least) {
+  if (A.cols() == 0) return A;
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(A, Eigen::ComputeFullU);
+  Eigen::Index rank = 0;
+  while (rank < svd.singularValues().size() && svd.singularValues()(rank) > least) ++rank;
+  return svd.matrixU().leftCols(rank);
+}
+
+// "x, y" or "(0.707, 0.707, 0)": the coordinate axes within a space first, then axes that span what is left of it.
+std::string axes_in_words(const Eigen::MatrixXd& space) {
+  std::string list;
+  const auto append = [&](const std::string& word) { list += (list.empty() ? "" : ", ") + word; };
+  Eigen::MatrixXd rest = space;
+  for (int a = 0; a < 3; ++a)
+    if (space.cols() > 0 && (space.transpose() * Eigen::Vector3d::Unit(a)).norm() > 1 - 1e-6) {
+      append(std::string(1, "xyz"[a]));
+      rest.row(a).setZero();
+    }
+  const Eigen::MatrixXd axes = orthonormal(rest, 1e-3);
+  for (Eigen::Index i = 0; i < axes.cols(); ++i) {
+    // An axis has no sign: its largest component is shown positive, and no zero as "-0".
+    Eigen::Vector3d axis = axes.col(i);
+    Eigen::Index largest = 0;
+    axis.cwiseAbs().maxCoeff(&largest);
+    if (axis(largest) < 0) axis = -axis;
+    for (double& x : axis) x = std::round(1e3 * x) / 1e3 + 0.0;
+    append(fmt::format("({:.3g}, {:.3g}, {:.3g})", axis(0), axis(1), axis(2)));
+  }
+  return list;
+}
+
+}  // namespace
+
 std::string FreeMotions::in_words(const Eigen::MatrixXd& V) {
-  std::string moves, turns;
-  const auto append = [](std::string& list, const std::string& word) { list += (list.empty() ? "" : ", ") + word; };
-  // Translations are combinations without rotation; an axis is free to turn when some motion turns about it alone.
-  const Eigen::MatrixXd rotation = V.bottomRows(3);
+  // Translations are combinations without rotation; an axis is free to turn when some motion turns about it.
   const double unit = V.norm();
-  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(rotation, Eigen::ComputeFullV | Eigen::ComputeFullU);
+  const Eigen::JacobiSVD<Eigen::MatrixXd> svd(V.bottomRows(3), Eigen::ComputeFullV);
   Eigen::Index rank = 0;
   while (rank < svd.singularValues().size() && svd.singularValues()(rank) > 1e-6 * unit) ++rank;
-  const Eigen::MatrixXd translations =
-      (V.topRows(3) * svd.matrixV().rightCols(V.cols() - rank)).colPivHouseholderQr().householderQ() *
-      Eigen::MatrixXd::Identity(3, V.cols() - rank);
-  const Eigen::MatrixXd axes = svd.matrixU().leftCols(rank);
-  const auto describe = [&](const Eigen::MatrixXd& space, std::string& list) {
-    Eigen::Index named = 0;
-    for (int a = 0; a < 3; ++a)
-      if (space.cols() > 0 && (space.transpose() * Eigen::Vector3d::Unit(a)).norm() > 1 - 1e-6) {
-        append(list, std::string(1, "xyz"[a]));
-        ++named;
-      }
-    if (named == space.cols()) return;
-    list.clear();
-    for (Eigen::Index i = 0; i < space.cols(); ++i)
-      append(list, fmt::format("({:.3g}, {:.3g}, {:.3g})", space(0, i), space(1, i), space(2, i)));
-  };
-  describe(translations, moves);
-  describe(axes, turns);
+  const Eigen::MatrixXd straight = V.topRows(3) * svd.matrixV().rightCols(V.cols() - rank);
+  const std::string moves = axes_in_words(orthonormal(straight, 1e-6 * unit));
+  const std::string turns = axes_in_words(orthonormal(V.bottomRows(3), 1e-6 * unit));
   std::string text;
   if (!moves.empty()) text = "move along " + moves;
   if (!turns.empty()) text += (text.empty() ? "rotate about " : " and rotate about ") + turns;

@@ -33,6 +33,7 @@ class FreeMotions {
   struct FreePart {
     std::int32_t part;
     Vec3 centre;  ///< [cells]
+    double size;  ///< the largest of its extents [cells]
     Eigen::MatrixXd motions;
   };
   using Sums = std::vector<Eigen::Matrix<double, 6, 1>>;
