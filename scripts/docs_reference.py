@@ -58,7 +58,8 @@ def limits(schema):
         high = f"< {schema['exclusiveMaximum']:g}"
     if "maximum" in schema:
         high = f"≤ {schema['maximum']:g}"
-    return ", ".join(part for part in (low, high) if part)
+    small = f"0 or at least {schema['smallestSize']:g} in size" if "smallestSize" in schema else ""
+    return ", ".join(part for part in (low, high, small) if part)
 
 
 def kind(schema):

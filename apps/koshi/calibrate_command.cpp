@@ -13,6 +13,7 @@
 #include "io/units.h"
 #include "koshi/error.h"
 #include "model/choices.h"
+#include "model/ranges.h"
 
 namespace koshi::app {
 namespace {
@@ -39,10 +40,19 @@ E choose(const std::string& option, const std::string& word) {
   throw InputError(Place{option}, fmt::format("\"{}\" is not known; {}", word, suggestion(word, known)));
 }
 
+// The value of an option that is a quantity.
+double quantity(const std::string& option, const std::string& text, io::Dimension dimension,
+                const model::Range& range) {
+  const Place place{"--" + option};
+  const double value = io::parse_quantity(text, dimension, place);
+  model::require(range, option, value, place);
+  return value;
+}
+
 model::LatticeDefinition read_lattice(const Options& options) {
   model::LatticeDefinition lattice;
   lattice.cell = choose<lattice::CellType>("--cell", options.cell);
-  lattice.spacing = io::parse_quantity(options.spacing, io::Dimension::length, Place{"--spacing"});
+  lattice.spacing = quantity("spacing", options.spacing, io::Dimension::length, model::ranges::spacing);
   lattice.springs = choose<material::Sharing>("--springs", options.springs);
   if (!options.calibration.empty())
     lattice.calibration = choose<material::Calibration>("--calibration", options.calibration);
@@ -55,14 +65,14 @@ model::LatticeDefinition read_lattice(const Options& options) {
 void run(const Options& options) {
   const model::LatticeDefinition lattice = read_lattice(options);
   const material::Elastic elastic{
-      io::parse_quantity(options.youngs_modulus, io::Dimension::pressure, Place{"--youngs-modulus"}),
-      io::parse_quantity(options.poissons_ratio, io::Dimension::number, Place{"--poissons-ratio"}),
-      io::parse_quantity(options.density, io::Dimension::density, Place{"--density"})};
+      quantity("youngs-modulus", options.youngs_modulus, io::Dimension::pressure, model::ranges::youngs_modulus),
+      quantity("poissons-ratio", options.poissons_ratio, io::Dimension::number, model::ranges::poissons_ratio),
+      quantity("density", options.density, io::Dimension::density, model::ranges::density)};
   std::optional<Vec3> size;
   if (!options.size.empty()) {
     size.emplace();
     for (int axis = 0; axis < 3; ++axis)
-      (*size)[axis] = io::parse_quantity(options.size[axis], io::Dimension::length, Place{"--size"});
+      (*size)[axis] = quantity("size", options.size[axis], io::Dimension::length, model::ranges::size);
   }
 
   const calibration::Calibrated calibrated = calibration::calibrate(lattice, elastic, size);

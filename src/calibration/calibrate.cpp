@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "koshi/error.h"
+#include "model/ranges.h"
 #include "model/regions.h"
 
 namespace koshi::calibration {
@@ -63,9 +64,10 @@ Calibrated examine_body(const model::LatticeDefinition& lattice, const material:
 Calibrated calibrate(const model::LatticeDefinition& asked, const material::Elastic& elastic,
                      const std::optional<Vec3>& size) {
   const model::LatticeDefinition lattice = with_defaults(asked);
-  if (!(lattice.spacing > 0)) throw InputError("the spacing must be positive");
-  if (!(elastic.density > 0)) throw InputError("the density must be positive");
-  material::require_elastic_solid(elastic);
+  model::require(model::ranges::spacing, "spacing", lattice.spacing, {});
+  model::require(model::ranges::density, "density", elastic.density, {});
+  model::require(model::ranges::youngs_modulus, "Young's modulus", elastic.youngs_modulus, {});
+  model::require(model::ranges::poissons_ratio, "Poisson's ratio", elastic.poissons_ratio, {});
   if (lattice.calibration != material::Calibration::paper && (!lattice.equations.empty() || lattice.axes != "xyz"))
     throw InputError("equations and axes are for calibration \"paper\"; drop them or choose it");
   std::optional<Int3> cells;

@@ -3,6 +3,7 @@
 #include <chrono>
 
 #include "calibration/calibrate.h"
+#include "driver/schedule.h"
 #include "driver/simulation.h"
 #include "driver/warnings.h"
 #include "koshi/input.h"
@@ -35,6 +36,7 @@ std::string explicit_part(const model::Model& model) {
   const mechanics::StableStep stable = mechanics::stable_step(model, kernel);
   const model::AnalysisDefinition& analysis = model.definition.analysis;
   const double dt = analysis.time_step.value_or(analysis.safety * stable.limit());
+  check_step_count(model.definition, dt);
   std::string text =
       fmt::format("time step     {:.4g} s of at most {:.4g} s (d/c_p = {:.4g} s, 2/omega_max = {:.4g} s)\n", dt,
                   stable.limit(), stable.wave, stable.frequency);

@@ -1,5 +1,7 @@
 #include "driver/schedule.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -23,6 +25,21 @@ double end_of_changes(const model::Definition& definition) {
 }
 
 }  // namespace
+
+void check_step_count(const model::Definition& definition, double step) {
+  constexpr double most = 1e12;
+  const model::AnalysisDefinition& analysis = definition.analysis;
+  if (!analysis.duration || *analysis.duration <= most * step) return;
+  const bool small_step = analysis.time_step || analysis.safety < 1e-3;
+  const std::string key = !small_step ? "duration" : analysis.time_step ? "time_step" : "safety";
+  const std::string remedy = analysis.type == model::AnalysisDefinition::Type::quasi_static
+                                 ? "a quasi-static run may do without a duration"
+                             : small_step ? fmt::format("use a larger {}, or a shorter duration", key)
+                                          : std::string("use a shorter duration, or check the units");
+  throw InputError(definition.places.find("analysis." + key),
+                   fmt::format("a duration of {:.6g} s takes {:.3g} steps of {:.3g} s; at most {:.0e} can be made, {}",
+                               *analysis.duration, *analysis.duration / step, step, most, remedy));
+}
 
 Schedule::Schedule(const model::Definition& definition, double step)
     : quasi_static_(definition.analysis.type == model::AnalysisDefinition::Type::quasi_static),

@@ -9,6 +9,10 @@
 
 namespace koshi::driver {
 
+/// Throws an InputError where the duration takes more steps of `step` seconds than a run can make: beyond a million
+/// million, which is far below what a clock of 53 bits still tells apart.
+void check_step_count(const model::Definition& definition, double step);
+
 class Schedule {
  public:
   /// `step`: the largest step to use [s]; it is shortened a little so that the run ends exactly on its duration.

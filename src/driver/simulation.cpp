@@ -98,6 +98,7 @@ void Simulation::check_support() const {
 
 double Simulation::choose_step(const mechanics::StableStep& stable) const {
   const model::AnalysisDefinition& analysis = model_->definition.analysis;
+  check_step_count(model_->definition, analysis.time_step.value_or(analysis.safety * stable.limit()));
   if (!analysis.time_step) return analysis.safety * stable.limit();
   if (*analysis.time_step > stable.limit() && !analysis.allow_unstable_step)
     throw InputError(

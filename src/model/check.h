@@ -3,10 +3,10 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
 #include <string>
 
 #include "koshi/definition.h"
+#include "model/ranges.h"
 
 namespace koshi::model {
 
@@ -16,34 +16,23 @@ class Checker {
 
   /// Throws at the place of the key at `path`; without a place, the path stands for it.
   [[noreturn]] void fail(const std::string& path, const std::string& message) const {
-    Place place = definition.places.find(path);
-    if (place.file.empty()) place.file = path;
-    throw InputError(place, message);
+    throw InputError(place(path), message);
   }
 
   /// The last key of the path, for messages.
   static std::string key(const std::string& path) { return path.substr(path.find_last_of('.') + 1); }
 
-  void positive(const std::string& path, double value, const std::string& unit) const {
-    if (!(value > 0) || !std::isfinite(value))
-      fail(path, fmt::format("{} is {:.12g}{}; it must be positive", key(path), value, spaced(unit)));
+  /// Refuses a value that a program filled in; those of a file were looked at when they were read.
+  void within(const Range& range, const std::string& path, double value) const {
+    if (!range.contains(value)) require(range, key(path), value, place(path));
   }
-  void positive(const std::string& path, const std::optional<double>& value, const std::string& unit) const {
-    if (value) positive(path, *value, unit);
+  void within(const Range& range, const std::string& path, const std::optional<double>& value) const {
+    if (value) within(range, path, *value);
   }
-  void not_negative(const std::string& path, double value, const std::string& unit) const {
-    if (!(value >= 0) || !std::isfinite(value))
-      fail(path, fmt::format("{} is {:.12g}{}; it must be zero or positive", key(path), value, spaced(unit)));
-  }
-  void finite(const std::string& path, double value) const {
-    if (!std::isfinite(value)) fail(path, fmt::format("{} is {}; it must be finite", key(path), value));
-  }
-  void finite(const std::string& path, const Vec3& value) const {
-    for (const double component : value) finite(path, component);
+  void within(const Range& range, const std::string& path, const Vec3& value) const {
+    for (const double component : value) within(range, path, component);
   }
   void ordered(const std::string& path, const Vec3& min, const Vec3& max) const {
-    finite(path, min);
-    finite(path, max);
     for (std::size_t a = 0; a < 3; ++a)
       if (min[a] > max[a])
         fail(path, fmt::format("min is above max along {} ({:.12g} m and {:.12g} m); exchange them", "xyz"[a], min[a],
@@ -53,7 +42,11 @@ class Checker {
   const Definition& definition;
 
  private:
-  static std::string spaced(const std::string& unit) { return unit.empty() ? "" : " " + unit; }
+  Place place(const std::string& path) const {
+    Place place = definition.places.find(path);
+    if (place.file.empty()) place.file = path;
+    return place;
+  }
 };
 
 void check_body(const Checker& check);        ///< lattice, body, materials, regions

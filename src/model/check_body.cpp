@@ -14,7 +14,7 @@ namespace {
 
 void check_lattice(const Checker& check) {
   const LatticeDefinition& lattice = check.definition.lattice;
-  check.positive("lattice.spacing", lattice.spacing, "m");
+  check.within(ranges::spacing, "lattice.spacing", lattice.spacing);
 
   const material::Calibration calibration = check.definition.calibration();
   const bool any_cell = calibration == material::Calibration::isotropic || calibration == material::Calibration::paper;
@@ -66,14 +66,9 @@ void check_materials(const Checker& check) {
     if (std::find(names.begin(), names.end(), material.name) != names.end())
       check.fail(path, fmt::format("two materials are called \"{}\"; names must differ", material.name));
     names.push_back(material.name);
-    check.positive(path + ".youngs_modulus", material.elastic.youngs_modulus, "Pa");
-    check.positive(path + ".density", material.elastic.density, "kg/m^3");
-    const double nu = material.elastic.poissons_ratio;
-    if (!(nu > -1 && nu < 0.5))
-      check.fail(path + ".poissons_ratio",
-                 fmt::format("poissons_ratio is {:.12g}; it must lie between -1 and 0.5, else the shear or the bulk "
-                             "modulus is not positive and finite",
-                             nu));
+    check.within(ranges::youngs_modulus, path + ".youngs_modulus", material.elastic.youngs_modulus);
+    check.within(ranges::density, path + ".density", material.elastic.density);
+    check.within(ranges::poissons_ratio, path + ".poissons_ratio", material.elastic.poissons_ratio);
   }
 }
 
@@ -88,7 +83,7 @@ void check_material_name(const Checker& check, const std::string& path, const st
 
 void check_box_of_cells(const Checker& check) {
   const BodyDefinition& body = check.definition.body;
-  check.finite("body.origin", body.origin);
+  check.within(ranges::position, "body.origin", body.origin);
   if (body.image.empty()) {
     make_grid(check.definition);
     if (body.cells.empty()) check_material_name(check, "body.material", body.material);
@@ -109,27 +104,29 @@ void check_region(const Checker& check, const std::string& path, const RegionDef
   check_material_name(check, path + ".material", region.material);
   switch (region.shape) {
     case Shape::box:
+      check.within(ranges::position, path + ".min", region.min);
+      check.within(ranges::position, path + ".max", region.max);
       check.ordered(path, region.min, region.max);
       break;
     case Shape::sphere:
-      check.finite(path + ".center", region.center);
-      check.positive(path + ".radius", region.radius, "m");
+      check.within(ranges::position, path + ".center", region.center);
+      check.within(ranges::size, path + ".radius", region.radius);
       break;
     case Shape::cylinder:
-      check.finite(path + ".start", region.start);
-      check.finite(path + ".end", region.end);
-      check.positive(path + ".radius", region.radius, "m");
+      check.within(ranges::position, path + ".start", region.start);
+      check.within(ranges::position, path + ".end", region.end);
+      check.within(ranges::size, path + ".radius", region.radius);
       if (region.start == region.end)
         check.fail(path + ".end", "start and end of the cylinder are the same point; its axis needs a length");
       break;
     case Shape::half_space:
-      check.finite(path + ".point", region.point);
-      check.finite(path + ".normal", region.normal);
+      check.within(ranges::position, path + ".point", region.point);
       if (region.normal == Vec3{})
         check.fail(path + ".normal", "normal is zero; it needs a direction such as [0, 0, 1]");
+      check.within(ranges::direction, path + ".normal", region.normal);
       break;
     case Shape::stl:
-      check.positive(path + ".scale", region.scale, "m");
+      check.within(ranges::size, path + ".scale", region.scale);
       if (region.file.empty()) check.fail(path + ".file", "file is empty; name a closed surface such as \"part.stl\"");
       break;
   }

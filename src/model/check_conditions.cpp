@@ -36,15 +36,19 @@ void check_selection(const Checker& check, const std::string& path, const std::s
   if (given.size() > 1)
     check.fail(path + "." + given[1],
                fmt::format("{} has both {}; give one of face, box, point", title, fmt::join(given, " and ")));
-  if (s.box) check.ordered(path + ".box", s.box->first, s.box->second);
-  if (s.point) check.finite(path + ".point", *s.point);
+  if (s.box) {
+    check.within(ranges::position, path + ".box.min", s.box->first);
+    check.within(ranges::position, path + ".box.max", s.box->second);
+    check.ordered(path + ".box", s.box->first, s.box->second);
+  }
+  if (s.point) check.within(ranges::position, path + ".point", *s.point);
 }
 
 void check_history(const Checker& check, const std::string& path, const History& history) {
   for (std::size_t i = 0; i < history.size(); ++i) {
     const std::string pair = fmt::format("{}[{}]", path, i);
-    check.finite(pair, history[i][0]);
-    check.finite(pair, history[i][1]);
+    check.within(ranges::moment_of_history, pair + "[0]", history[i][0]);
+    check.within(ranges::factor, pair + "[1]", history[i][1]);
     if (i > 0 && !(history[i][0] > history[i - 1][0]))
       check.fail(pair, fmt::format("time {:.12g} s does not come after {:.12g} s; the times of a history must rise",
                                    history[i][0], history[i - 1][0]));
@@ -65,24 +69,26 @@ void check_boundary(const Checker& check, const std::string& path, const Boundar
                                               prescribed_by[c], key));
     prescribed_by[c] = key;
   };
-  const auto finite = [&](const std::string& at, double value) { check.finite(fmt::format("{}.{}", path, at), value); };
+  const auto within = [&](const Range& range, const std::string& at, double value) {
+    check.within(range, fmt::format("{}.{}", path, at), value);
+  };
   for (std::size_t c = 0; c < 6; ++c) {
     if (boundary.fix[c]) prescribe(c, "fix", "fix");
     if (boundary.displacement[c]) {
       const std::string at = fmt::format("displacement.{}", component_names[c]);
       prescribe(c, "displacement", at);
-      finite(at, *boundary.displacement[c]);
+      within(c < 3 ? ranges::displacement : ranges::rotation, at, *boundary.displacement[c]);
     }
     if (boundary.velocity[c]) {
       const std::string at = fmt::format("velocity.{}", component_names[c]);
       prescribe(c, "velocity", at);
-      finite(at, *boundary.velocity[c]);
+      within(c < 3 ? ranges::velocity : ranges::angular_velocity, at, *boundary.velocity[c]);
     }
   }
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!boundary.twist[axis]) continue;
     const std::string at = fmt::format("twist.{}", component_names[axis]);
-    finite(at, *boundary.twist[axis]);
+    within(ranges::rotation, at, *boundary.twist[axis]);
     for (const std::size_t c : {(axis + 1) % 3, (axis + 2) % 3, axis + 3})
       prescribe(c, fmt::format("twist about {}", component_names[axis]), at);
   }
@@ -110,23 +116,23 @@ void check_boundary(const Checker& check, const std::string& path, const Boundar
                         "type \"quasi-static\" or \"dynamic\"",
                         title));
 
-  check.not_negative(path + ".ramp", boundary.ramp, "s");
-  if (boundary.center) check.finite(path + ".center", *boundary.center);
+  check.within(ranges::ramp, path + ".ramp", boundary.ramp);
+  if (boundary.center) check.within(ranges::position, path + ".center", *boundary.center);
   check_history(check, path + ".history", boundary.history);
 }
 
 void check_load(const Checker& check, const std::string& path, const LoadDefinition& load) {
   const std::string title = fmt::format("load \"{}\"", load.name);
   std::vector<std::string> given;
-  const auto add = [&](const std::string& key, const auto& value) {
+  const auto add = [&](const Range& range, const std::string& key, const auto& value) {
     if (!value) return;
     given.push_back(key);
-    check.finite(path + "." + key, *value);
+    check.within(range, path + "." + key, *value);
   };
-  add("force", load.force);
-  add("traction", load.traction);
-  add("pressure", load.pressure);
-  add("acceleration", load.acceleration);
+  add(ranges::force, "force", load.force);
+  add(ranges::pressure, "traction", load.traction);
+  add(ranges::pressure, "pressure", load.pressure);
+  add(ranges::acceleration, "acceleration", load.acceleration);
   if (given.empty())
     check.fail(path, fmt::format("{} loads nothing; give it one of force, traction, pressure, acceleration", title));
   if (given.size() > 1)
@@ -154,7 +160,7 @@ void check_probe(const Checker& check, const std::string& path, const ProbeDefin
   check_selection(check, path, title, probe.selection);
   if (probe.quantity == ProbeDefinition::Quantity::moment && probe.reduction() != ProbeDefinition::Reduce::sum)
     check.fail(path + ".reduce", fmt::format("{} is a moment, which is a sum over its nodes; leave reduce out", title));
-  if (probe.center) check.finite(path + ".center", *probe.center);
+  if (probe.center) check.within(ranges::position, path + ".center", *probe.center);
 }
 
 }  // namespace

@@ -11,21 +11,14 @@ namespace koshi::model {
 
 void check_run(const Checker& check) {
   const AnalysisDefinition& analysis = check.definition.analysis;
-  if (!(analysis.tolerance > 0 && analysis.tolerance < 1))
-    check.fail("analysis.tolerance",
-               fmt::format("tolerance is {:.12g}; it must lie between 0 and 1, such as 1e-8", analysis.tolerance));
+  check.within(ranges::tolerance, "analysis.tolerance", analysis.tolerance);
   if (analysis.type == AnalysisDefinition::Type::dynamic && !analysis.duration)
     check.fail("analysis", "a dynamic analysis has no duration; give one, such as duration = \"0.1 s\"");
-  check.positive("analysis.duration", analysis.duration, "s");
-  check.positive("analysis.time_step", analysis.time_step, "s");
-  if (!(analysis.safety > 0 && analysis.safety <= 1))
-    check.fail("analysis.safety",
-               fmt::format("safety is {:.12g}; it must be above 0 and at most 1, such as 0.9", analysis.safety));
-  const double factor = analysis.damping.factor;
-  if (!(factor >= 0 && factor < 1))
-    check.fail("analysis.damping.factor",
-               fmt::format("factor is {:.12g}; local damping takes 0 to below 1, such as 0.8", factor));
-  check.not_negative("analysis.damping.rate", analysis.damping.rate, "1/s");
+  check.within(ranges::time, "analysis.duration", analysis.duration);
+  check.within(ranges::time, "analysis.time_step", analysis.time_step);
+  check.within(ranges::safety, "analysis.safety", analysis.safety);
+  check.within(ranges::damping_factor, "analysis.damping.factor", analysis.damping.factor);
+  check.within(ranges::damping_rate, "analysis.damping.rate", analysis.damping.rate);
 
   const OutputDefinition& output = check.definition.output;
   const std::vector<std::string> known(field_names.begin(), field_names.end());
@@ -33,10 +26,10 @@ void check_run(const Checker& check) {
     if (std::find(known.begin(), known.end(), output.fields[i]) == known.end())
       check.fail(fmt::format("output.fields[{}]", i),
                  fmt::format("there is no field \"{}\"; {}", output.fields[i], suggestion(output.fields[i], known)));
-  check.positive("output.every", output.every, "s");
-  check.positive("output.history_every", output.history_every, "s");
-  check.positive("output.checkpoint_every", output.checkpoint_every, "s");
-  check.positive("output.checkpoint_every_wall", output.checkpoint_wall, "s");
+  check.within(ranges::time, "output.every", output.every);
+  check.within(ranges::time, "output.history_every", output.history_every);
+  check.within(ranges::time, "output.checkpoint_every", output.checkpoint_every);
+  check.within(ranges::time, "output.checkpoint_every_wall", output.checkpoint_wall);
 }
 
 void check(const Definition& definition) {

@@ -78,6 +78,13 @@ lattice::Grid make_grid(const Definition& definition) {
           fmt::format("body.size[{}]", a),
           fmt::format("the body would have more than {:.0e} nodes; use a larger spacing or a smaller body", most));
     grid.cells[a] = static_cast<std::int64_t>(whole);
+    // Coordinates keep 16 digits: of a cell, far from zero, a millionth must be left.
+    constexpr double farthest = 1e9;
+    if (std::abs(grid.origin[a]) > farthest * grid.d)
+      check.fail(fmt::format("body.origin[{}]", a),
+                 fmt::format("origin along {} is {:.12g} m, more than {:.0e} cells of {:.6g} m away from zero, where "
+                             "coordinates no longer tell them apart; move the body nearer",
+                             "xyz"[a], grid.origin[a], farthest, grid.d));
   }
   return grid;
 }

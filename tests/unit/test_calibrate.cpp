@@ -105,12 +105,12 @@ TEST(CalibrateDriver, SaysWhatIsWrong) {
   EXPECT_THAT(message_of(good, rock, Vec3{0.002, 0.003, 0.002}), HasSubstr("no positive multiple of the spacing"));
   EXPECT_THAT(message_of(good, {1e9, 0.5, 1}), HasSubstr("Poisson's ratio is 0.5"));
   EXPECT_THAT(message_of(good, {-1e9, 0.2, 1}), HasSubstr("Young's modulus is -1000000000"));
-  EXPECT_THAT(message_of(good, {1e9, 0.2, 0}), HasSubstr("density must be positive"));
+  EXPECT_THAT(message_of(good, {1e9, 0.2, 0}), HasSubstr("density is 0 kg/m^3; it must lie between"));
   EXPECT_THAT(message_of(lattice_of(CellType::cube_ii, Sharing::plain), {1e9, 0.3, 1}),
               HasSubstr("negative stiffness"));
   auto flat = good;
   flat.spacing = 0;
-  EXPECT_THAT(message_of(flat, rock), HasSubstr("spacing must be positive"));
+  EXPECT_THAT(message_of(flat, rock), HasSubstr("spacing is 0 m; it must lie between"));
   auto wrong = good;
   wrong.calibration = Calibration::bending_exact;
   EXPECT_THAT(message_of(wrong, rock), HasSubstr("\"cube-III\", not \"cube-II\""));

@@ -65,7 +65,8 @@ TEST(Overrides, ErrorsNameTheOverride) {
       message("lattice.spacing=0.3 cm"),
       "case.toml:6:9: error: size along x is 0.008 m, no positive multiple of the spacing 0.003 m; the nearest right "
       "sizes: 0.006 m, 0.009 m");
-  EXPECT_EQ(message("lattice.spacing=-1"), "--set lattice.spacing=-1: error: spacing is -1 m; it must be positive");
+  EXPECT_EQ(message("lattice.spacing=-1"),
+            "--set lattice.spacing=-1: error: spacing is -1 m; it must lie between 1e-12 m and 1e+09 m");
   EXPECT_EQ(message("lattice.spacin=1 mm"),
             "--set lattice.spacin=1 mm: error: unknown key \"spacin\" in [lattice]; did you mean \"spacing\"?");
   EXPECT_EQ(message("latice.spacing=1 mm"),
@@ -75,8 +76,7 @@ TEST(Overrides, ErrorsNameTheOverride) {
       "--set body.size=[0, 1: error: size is the text \"[0, 1\"; expected a list of three (x, y, z), each a length "
       "such as \"0.2 cm\" (a bare number is in m)");
   EXPECT_EQ(message("body.size=[1, 2, -3]"),
-            "--set body.size=[1, 2, -3]: error: size along z is -3 m, no positive multiple of the spacing 0.002 m; the "
-            "nearest right size: 0.002 m");
+            "--set body.size=[1, 2, -3]: error: size[2] is -3 m; it must lie between 1e-12 m and 1e+12 m");
   EXPECT_EQ(message("title=1\nname=2"), "");  // not two keys, but one text
   const std::string form = ": error: not an assignment; expected section.key=value such as lattice.spacing=\"0.1 cm\"";
   for (const char* text : {"", "=", "=1", "lattice.spacing", "lattice.=1", ".spacing=1", "lattice..spacing=1"})
@@ -119,7 +119,9 @@ TEST(Check, NamesThePathWithoutAPlace) {
     check(definition);
     FAIL() << "no error";
   } catch (const InputError& error) {
-    EXPECT_STREQ(error.what(), "material.rock.density: error: density is nan kg/m^3; it must be positive");
+    EXPECT_STREQ(
+        error.what(),
+        "material.rock.density: error: density is nan kg/m^3; it must lie between 1e-09 kg/m^3 and 1e+18 kg/m^3");
   }
 }
 

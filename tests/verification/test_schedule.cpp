@@ -6,6 +6,7 @@
 
 #include "driver/simulation.h"
 #include "koshi/dynamics.h"
+#include "koshi/run.h"
 #include "support/cases.h"
 
 namespace koshi {
@@ -137,6 +138,36 @@ TEST(TimeStep, AboveTheLimitIsRefused) {
   EXPECT_TRUE(input_error);
   EXPECT_THAT(message, HasSubstr("is above the stable limit"));
   EXPECT_THAT(message, HasSubstr("allow_unstable_step = true"));
+}
+
+// A count of steps that no run can make is refused at the key that makes it, before a step is taken: it is never cut to
+// one that fits.
+TEST(TimeStep, CountOfStepsIsBounded) {
+  const auto refused = [](const model::Definition& definition, const std::string& words) {
+    bool input_error = false;
+    const std::string message = message_of(definition, input_error);
+    EXPECT_TRUE(input_error) << message;
+    EXPECT_THAT(message, HasSubstr(words));
+    EXPECT_THAT(message, HasSubstr("at most 1e+12 can be made"));
+  };
+  model::Definition definition = kicked(1e-9);
+  definition.analysis.time_step = 1e-15;
+  definition.analysis.duration = 1.0;
+  refused(definition, "takes 1e+15 steps of 1e-15 s");
+  refused(definition, "use a larger time_step, or a shorter duration");
+  definition.analysis.time_step.reset();
+  definition.analysis.safety = 1e-6;  // of a limit of about 2.6e-6 s
+  definition.analysis.duration = 10.0;
+  refused(definition, "use a larger safety, or a shorter duration");
+  definition.analysis.safety = 0.9;
+  definition.analysis.duration = 1e13;
+  refused(definition, "use a shorter duration, or check the units");
+  definition.analysis.type = model::AnalysisDefinition::Type::quasi_static;
+  refused(definition, "a quasi-static run may do without a duration");
+  // The same from `koshi check`, which makes no step.
+  EXPECT_THROW(driver::check(definition, Communicator::world()), InputError);
+  definition.analysis.duration.reset();
+  EXPECT_NO_THROW(driver::check(definition, Communicator::world()));
 }
 
 TEST(TimeStep, TooLargeByWishDivergesAndSaysWhere) {

@@ -63,7 +63,10 @@ std::vector<std::string> components(std::size_t count) {
 Spec component_of(const Spec& spec, std::size_t component) {
   Spec result = spec;
   result.name = fmt::format("{}.{}", spec.name, model::component_names[component]);
-  if (component >= 3) result.dimension = spec.rotation;
+  if (component >= 3) {
+    result.dimension = spec.rotation;
+    result.range = spec.rotation_range;
+  }
   return result;
 }
 
@@ -188,6 +191,16 @@ Form<std::pair<Vec3, Vec3>> form(Tag<std::pair<Vec3, Vec3>>) {
   };
 }
 
+// A pair of a history: the time and the factor.
+std::pair<Spec, Spec> specs_of_pair(const Spec& pair) {
+  Spec time = element_of(pair, 0), factor = element_of(pair, 1);
+  time.dimension = Dimension::time;
+  time.range = model::ranges::moment_of_history;
+  factor.dimension = Dimension::number;
+  factor.range = model::ranges::factor;
+  return {time, factor};
+}
+
 Form<model::History> form(Tag<model::History>) {
   return {
       .read =
@@ -197,10 +210,7 @@ Form<model::History> form(Tag<model::History>) {
             for (const Value& pair : *value.array()) {
               const Spec pair_spec = element_of(spec, out.size());
               const Array& both = elements(pair, pair_spec, 2, "a pair [time, factor] such as [\"1 s\", 0.5]");
-              Spec time = element_of(pair_spec, 0);
-              Spec factor = element_of(pair_spec, 1);
-              time.dimension = Dimension::time;
-              factor.dimension = Dimension::number;
+              const auto [time, factor] = specs_of_pair(pair_spec);
               auto& [t, f] = out.emplace_back();
               form(Tag<double>{}).read(both[0], time, t);
               form(Tag<double>{}).read(both[1], factor, f);
@@ -215,11 +225,10 @@ Form<model::History> form(Tag<model::History>) {
           },
       .expected = [](const Spec&) { return std::string("a list of pairs such as [[\"0 s\", 0], [\"1 s\", 1]]"); },
       .schema =
-          [](const Spec&, Json& out) {
-            Spec time;
-            time.dimension = Dimension::time;
+          [](const Spec& spec, Json& out) {
+            const auto [time, factor] = specs_of_pair(spec);
             const Json times = schema_of(Tag<double>{}, time);
-            const Json factors = schema_of(Tag<double>{}, Spec{});
+            const Json factors = schema_of(Tag<double>{}, factor);
             const Json pair{
                 {"type", "array"}, {"prefixItems", Json::array({times, factors})}, {"minItems", 2}, {"maxItems", 2}};
             out = Json{{"type", "array"}, {"items", pair}, {"minItems", 1}};

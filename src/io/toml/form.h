@@ -17,15 +17,11 @@
 #include "io/units.h"
 #include "koshi/definition.h"
 #include "model/choices.h"
+#include "model/ranges.h"
 
 namespace koshi::io {
 
 using Json = nlohmann::ordered_json;
-
-/// Values a number may have; unset: no limit.
-struct Range {
-  std::optional<double> above{}, at_least{}, below{}, at_most{};
-};
 
 /// What a form must know of its key.
 struct Spec {
@@ -35,7 +31,8 @@ struct Spec {
   std::string unset_word{};               ///< the word that stands for an unset value ("auto"); empty: none
   std::vector<std::string> allowed{};     ///< of a list of words; empty: any
   std::string title{};                    ///< of a nested table in messages; empty: [name]
-  Range range{};                          ///< for the schema; model::check refuses what lies outside
+  model::Range range{};                   ///< of numbers
+  model::Range rotation_range{};          ///< of the rotations among the six components
 };
 
 template <class T>

@@ -55,7 +55,8 @@ struct About {
   std::string unset_word{};
   std::vector<std::string> allowed{};
   std::string title{};
-  Range range{};
+  model::Range range{};
+  model::Range rotation_range{};
   std::string example{};
   std::vector<std::string> one_of{};
 };
@@ -66,7 +67,8 @@ Key<S> key(const std::string& name, Member member, const std::string& descriptio
   using T = std::remove_cvref_t<std::invoke_result_t<Member, S&>>;
   const Form<T> of_type = form(Tag<T>{});
   Key<S> result;
-  result.spec = {name, about.dimension, about.rotation, about.unset_word, about.allowed, about.title, about.range};
+  result.spec = {name,          about.dimension, about.rotation, about.unset_word,
+                 about.allowed, about.title,     about.range,    about.rotation_range};
   result.required = about.required;
   result.example = about.example;
   result.one_of = about.one_of;

@@ -42,7 +42,7 @@ const std::vector<Key<LatticeDefinition>>& keys_of(Tag<LatticeDefinition>) {
   static const std::vector<Key<D>> keys{
       key<D>("cell", &D::cell, "Unit cell: edges, face diagonals (II, III), body diagonals (III)."),
       key<D>("spacing", &D::spacing, "Side d of a cell.",
-             {.dimension = Dimension::length, .required = true, .range = {.above = 0}, .example = R"("0.2 cm")"}),
+             {.dimension = Dimension::length, .required = true, .range = ranges::spacing, .example = R"("0.2 cm")"}),
       key<D>("springs", &D::springs, "Springs belong to cells (shared), or every bond carries its full stiffness."),
       key<D>("calibration", &D::calibration,
              "How E and nu become springs; unset: bending-exact for shared Cube-III, isotropic for shared Cube-I and "
@@ -65,11 +65,11 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
   const auto imaged = [](const D& body) { return !body.image.empty(); };
   static const std::vector<Key<D>> keys{
       key<D>("origin", &D::origin, "Lower corner of the box.",
-             {.dimension = Dimension::length, .example = R"(["0 mm", "0 mm", "-5 mm"])"}),
+             {.dimension = Dimension::length, .range = ranges::position, .example = R"(["0 mm", "0 mm", "-5 mm"])"}),
       key<D>("size", &D::size, "Edges of the box, multiples of the spacing.",
              {.dimension = Dimension::length,
               .required = true,
-              .range = {.above = 0},
+              .range = ranges::size,
               .example = R"(["1.8 cm", "7.8 cm", "1.8 cm"])"})
           .only_for("a body without an image", {"image"}, plain),
       key<D>("material", &D::material, "Material of the cells, or \"void\".",
@@ -90,11 +90,15 @@ const std::vector<Key<MaterialDefinition>>& keys_of(Tag<MaterialDefinition>) {
   using D = MaterialDefinition;
   static const std::vector<Key<D>> keys{
       key<D>("youngs_modulus", [](auto& m) -> auto& { return m.elastic.youngs_modulus; }, "Young's modulus E.",
-             {.dimension = Dimension::pressure, .required = true, .range = {.above = 0}, .example = R"("1112 MPa")"}),
+             {.dimension = Dimension::pressure,
+              .required = true,
+              .range = ranges::youngs_modulus,
+              .example = R"("1112 MPa")"}),
       key<D>("poissons_ratio", [](auto& m) -> auto& { return m.elastic.poissons_ratio; }, "Poisson's ratio nu.",
-             {.required = true, .range = {.above = -1, .below = 0.5}, .example = "0.18"}),
-      key<D>("density", [](auto& m) -> auto& { return m.elastic.density; }, "Mass per volume.",
-             {.dimension = Dimension::density, .required = true, .range = {.above = 0}, .example = R"("2000 kg/m^3")"}),
+             {.required = true, .range = ranges::poissons_ratio, .example = "0.18"}),
+      key<D>(
+          "density", [](auto& m) -> auto& { return m.elastic.density; }, "Mass per volume.",
+          {.dimension = Dimension::density, .required = true, .range = ranges::density, .example = R"("2000 kg/m^3")"}),
   };
   return keys;
 }
@@ -111,9 +115,9 @@ const std::vector<Key<RegionDefinition>>& keys_of(Tag<RegionDefinition>) {
       return std::find(shapes.begin(), shapes.end(), region.shape) != shapes.end();
     });
   };
-  const About size{.dimension = Dimension::length, .required = true, .range = {.above = 0}, .example = R"("12 mm")"};
+  const About size{.dimension = Dimension::length, .required = true, .range = ranges::size, .example = R"("12 mm")"};
   const auto at = [](const std::string& example) {
-    return About{.dimension = Dimension::length, .required = true, .example = example};
+    return About{.dimension = Dimension::length, .required = true, .range = ranges::position, .example = example};
   };
   static const std::vector<Key<D>> keys{
       key<D>("shape", &D::shape, "Cells whose centre lies inside the shape belong to the region.", {.required = true}),
@@ -126,11 +130,11 @@ const std::vector<Key<RegionDefinition>>& keys_of(Tag<RegionDefinition>) {
       of({Shape::cylinder}, key<D>("end", &D::end, "Other end of the axis.", at(R"(["30 mm", "40 mm", "25 mm"])"))),
       of({Shape::half_space}, key<D>("point", &D::point, "A point of the border plane.", at(R"([0, 0, "3 mm"])"))),
       of({Shape::half_space}, key<D>("normal", &D::normal, "Direction that points out of the half-space.",
-                                     {.required = true, .example = "[0, 0, 1]"})),
+                                     {.required = true, .range = ranges::direction, .example = "[0, 0, 1]"})),
       of({Shape::stl},
          key<D>("file", &D::file, "File of a closed surface.", {.required = true, .example = R"("implant.stl")"})),
       of({Shape::stl}, key<D>("scale", &D::scale, "Length of one unit of the file.",
-                              {.dimension = Dimension::length, .range = {.above = 0}, .example = R"("1 mm")"})),
+                              {.dimension = Dimension::length, .range = ranges::size, .example = R"("1 mm")"})),
   };
   return keys;
 }

@@ -17,18 +17,18 @@ const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
              "Equilibrium solved directly, equilibrium reached by damped stepping, or motion over time."),
       key<D>("tolerance", &D::tolerance,
              "Static: relative residual of the solution; quasi-static: unbalanced-force ratio at rest.",
-             {.range = {.above = 0, .below = 1}, .example = "1e-6"})
+             {.range = ranges::tolerance, .example = "1e-6"})
           .only_for("type \"static\" or \"quasi-static\"", {"type"},
                     [](const D& analysis) { return analysis.type != Type::dynamic; }),
       of_stepped(key<D>("duration", &D::duration,
                         "Simulated time; required for dynamic, the most that quasi-static may take.",
-                        {.dimension = Dimension::time, .range = {.above = 0}, .example = R"("0.32 s")"})),
+                        {.dimension = Dimension::time, .range = ranges::time, .example = R"("0.32 s")"})),
       of_stepped(key<D>("time_step", &D::time_step, "Time step; \"auto\": the stable limit times safety.",
-                        {.dimension = Dimension::time, .unset_word = "auto", .range = {.above = 0}})),
+                        {.dimension = Dimension::time, .unset_word = "auto", .range = ranges::time})),
       of_stepped(key<D>("allow_unstable_step", &D::allow_unstable_step,
                         "Run with a time step above the stable limit all the same.")),
       of_stepped(key<D>("safety", &D::safety, "Ratio of the automatic time step to the stable limit.",
-                        {.range = {.above = 0, .at_most = 1}, .example = "0.9"})),
+                        {.range = ranges::safety, .example = "0.9"})),
       of_stepped(key<D>("damping", &D::damping,
                         "Damping of the motion; unset: local with factor 0.8 for quasi-static, none for dynamic.",
                         {.title = "damping", .example = R"({kind = "local", factor = 0.8})"})),
@@ -45,10 +45,10 @@ const std::vector<Key<DampingDefinition>>& keys_of(Tag<DampingDefinition>) {
   static const std::vector<Key<D>> keys{
       key<D>("kind", &D::kind, "Local non-viscous damping, viscous damping, or none."),
       key<D>("factor", &D::factor, "Part of the unbalanced force that is taken away.",
-             {.range = {.at_least = 0, .below = 1}, .example = "0.8"})
+             {.range = ranges::damping_factor, .example = "0.8"})
           .only_for("kind \"local\"", {"kind"}, [](const D& damping) { return damping.kind == Kind::local; }),
       key<D>("rate", &D::rate, "Damping force over mass times velocity.",
-             {.dimension = Dimension::rate, .required = true, .range = {.at_least = 0}})
+             {.dimension = Dimension::rate, .required = true, .range = ranges::damping_rate})
           .only_for("kind \"viscous\"", {"kind"}, [](const D& damping) { return damping.kind == Kind::viscous; }),
   };
   return keys;
@@ -56,7 +56,7 @@ const std::vector<Key<DampingDefinition>>& keys_of(Tag<DampingDefinition>) {
 
 const std::vector<Key<OutputDefinition>>& keys_of(Tag<OutputDefinition>) {
   using D = OutputDefinition;
-  const About time{.dimension = Dimension::time, .range = {.above = 0}, .example = R"("10 ms")"};
+  const About time{.dimension = Dimension::time, .range = ranges::time, .example = R"("10 ms")"};
   static const std::vector<Key<D>> keys{
       key<D>("fields", &D::fields, "Fields to write.",
              {.allowed = {field_names.begin(), field_names.end()}, .example = R"(["displacement", "stress"])"}),
@@ -65,7 +65,7 @@ const std::vector<Key<OutputDefinition>>& keys_of(Tag<OutputDefinition>) {
              "Simulated time between rows of history.csv; unset: about 200 rows in all.", time),
       key<D>("checkpoint_every", &D::checkpoint_every, "Simulated time between checkpoints.", time),
       key<D>("checkpoint_every_wall", &D::checkpoint_wall, "Wall time between checkpoints.",
-             {.dimension = Dimension::time, .range = {.above = 0}, .example = R"("1 hour")"}),
+             {.dimension = Dimension::time, .range = ranges::time, .example = R"("1 hour")"}),
       key<D>("report", &D::report, "Write report.html at the end."),
   };
   return keys;

@@ -19,11 +19,15 @@ std::vector<Key<D>> selection_keys(const std::string& name_description, bool nam
       key<D>("box", [](auto& s) -> auto& { return s.selection.box; },
              "Selects the nodes inside a box or on its border.",
              {.dimension = Dimension::length,
+              .range = ranges::position,
               .example = "{min = [0, 0, 0], max = [\"1 cm\", \"1 cm\", 0]}",
               .one_of = {"where"}}),
       key<D>("point", [](auto& s) -> auto& { return s.selection.point; },
              "Selects the nearest node, at most half a spacing away in every direction.",
-             {.dimension = Dimension::length, .example = R"(["0.8 cm", "7.8 cm", "1.0 cm"])", .one_of = {"where"}}),
+             {.dimension = Dimension::length,
+              .range = ranges::position,
+              .example = R"(["0.8 cm", "7.8 cm", "1.0 cm"])",
+              .one_of = {"where"}}),
   };
 }
 
@@ -55,18 +59,24 @@ const std::vector<Key<BoundaryDefinition>>& keys_of(Tag<BoundaryDefinition>) {
           key<D>("fix", &D::fix, "Components held at zero; rotations count only with rotational kinematics.",
                  {.example = R"(["x", "y", "z", "rx", "ry", "rz"])"}),
           key<D>("displacement", &D::displacement, "Prescribed displacements and rotations.",
-                 {.dimension = Dimension::length, .rotation = Dimension::angle, .example = R"({z = "-0.08 mm"})"}),
+                 {.dimension = Dimension::length,
+                  .rotation = Dimension::angle,
+                  .range = ranges::displacement,
+                  .rotation_range = ranges::rotation,
+                  .example = R"({z = "-0.08 mm"})"}),
           key<D>("velocity", &D::velocity, "Prescribed velocities and angular velocities.",
                  {.dimension = Dimension::velocity,
                   .rotation = Dimension::angular_velocity,
+                  .range = ranges::velocity,
+                  .rotation_range = ranges::angular_velocity,
                   .example = R"({z = "-0.1 cm/s"})"}),
           key<D>("twist", &D::twist, "Angle by which the selection turns as a rigid body about x, y or z.",
-                 {.dimension = Dimension::angle, .example = R"({z = "1 deg"})"}),
+                 {.dimension = Dimension::angle, .range = ranges::rotation, .example = R"({z = "1 deg"})"}),
           key<D>("center", &D::center, "Point on the axis of the twist; unset: the mean of the selected nodes.",
-                 {.dimension = Dimension::length, .example = R"(["5 mm", "5 mm", "0 mm"])"})
+                 {.dimension = Dimension::length, .range = ranges::position, .example = R"(["5 mm", "5 mm", "0 mm"])"})
               .only_for("a boundary with twist", {"twist"}, has_twist),
           key<D>("ramp", &D::ramp, "Time over which the motion rises linearly from zero.",
-                 {.dimension = Dimension::time, .range = {.at_least = 0}, .example = R"("10 ms")"})
+                 {.dimension = Dimension::time, .range = ranges::ramp, .example = R"("10 ms")"})
               .only_for(motion, motions, moves),
           key<D>("history", &D::history,
                  "Factor on the motion over time: pairs [time, factor], linear between, constant outside.",
@@ -82,13 +92,23 @@ const std::vector<Key<LoadDefinition>>& keys_of(Tag<LoadDefinition>) {
       joined(selection_keys<D>("Name for messages and --set; unset: \"load 1\" and so on.", false),
              {
                  key<D>("force", &D::force, "Total force on the selection.",
-                        {.dimension = Dimension::force, .example = R"(["9.8 N", "0 N", "0 N"])", .one_of = {"what"}}),
+                        {.dimension = Dimension::force,
+                         .range = ranges::force,
+                         .example = R"(["9.8 N", "0 N", "0 N"])",
+                         .one_of = {"what"}}),
                  key<D>("traction", &D::traction, "Force per area.",
-                        {.dimension = Dimension::pressure, .example = R"([0, 0, "-2 MPa"])", .one_of = {"what"}}),
+                        {.dimension = Dimension::pressure,
+                         .range = ranges::pressure,
+                         .example = R"([0, 0, "-2 MPa"])",
+                         .one_of = {"what"}}),
                  key<D>("pressure", &D::pressure, "Pressure against the outward normal of the face.",
-                        {.dimension = Dimension::pressure, .example = R"("2 MPa")", .one_of = {"what"}}),
+                        {.dimension = Dimension::pressure,
+                         .range = ranges::pressure,
+                         .example = R"("2 MPa")",
+                         .one_of = {"what"}}),
                  key<D>("acceleration", &D::acceleration, "Body force per mass, on the whole body.",
                         {.dimension = Dimension::acceleration,
+                         .range = ranges::acceleration,
                          .example = R"([0, 0, "-9.80665 m/s^2"])",
                          .one_of = {"where", "what"}}),
                  key<D>("distribution", &D::distribution,
@@ -103,18 +123,18 @@ const std::vector<Key<LoadDefinition>>& keys_of(Tag<LoadDefinition>) {
 
 const std::vector<Key<ProbeDefinition>>& keys_of(Tag<ProbeDefinition>) {
   using D = ProbeDefinition;
-  static const std::vector<Key<D>> keys =
-      joined(selection_keys<D>("Name in summary.json and history.csv.", true),
-             {
-                 key<D>("quantity", &D::quantity, "What is reported."),
-                 key<D>("reduce", &D::reduce,
-                        "How the values of several nodes become one; unset: sum for reactions and moments, else mean."),
-                 key<D>("center", &D::center,
-                        "Point about which the reactions' moment is taken; unset: the mean of the selected nodes.",
-                        {.dimension = Dimension::length, .example = R"(["5 mm", "5 mm", "0 mm"])"})
-                     .only_for("quantity \"moment\"", {"quantity"},
-                               [](const D& probe) { return probe.quantity == D::Quantity::moment; }),
-             });
+  static const std::vector<Key<D>> keys = joined(
+      selection_keys<D>("Name in summary.json and history.csv.", true),
+      {
+          key<D>("quantity", &D::quantity, "What is reported."),
+          key<D>("reduce", &D::reduce,
+                 "How the values of several nodes become one; unset: sum for reactions and moments, else mean."),
+          key<D>("center", &D::center,
+                 "Point about which the reactions' moment is taken; unset: the mean of the selected nodes.",
+                 {.dimension = Dimension::length, .range = ranges::position, .example = R"(["5 mm", "5 mm", "0 mm"])"})
+              .only_for("quantity \"moment\"", {"quantity"},
+                        [](const D& probe) { return probe.quantity == D::Quantity::moment; }),
+      });
   return keys;
 }
 

@@ -23,11 +23,11 @@ void words_schema(const std::vector<std::string>& words, Json& out) { out["enum"
 
 namespace {
 
-void range_schema(const Range& range, Json& out) {
-  if (range.above) out["exclusiveMinimum"] = *range.above;
-  if (range.at_least) out["minimum"] = *range.at_least;
-  if (range.below) out["exclusiveMaximum"] = *range.below;
-  if (range.at_most) out["maximum"] = *range.at_most;
+void range_schema(const model::Range& range, Json& out) {
+  out[range.open_below ? "exclusiveMinimum" : "minimum"] = range.least;
+  out[range.open_above ? "exclusiveMaximum" : "maximum"] = range.most;
+  // JSON Schema leaves further keywords to whoever reads them.
+  if (range.smallest > 0) out["smallestSize"] = range.smallest;
 }
 
 }  // namespace
@@ -80,6 +80,7 @@ Form<double> form(Tag<double>) {
             } else {
               wrong_form(value, spec, expected_quantity(spec.dimension));
             }
+            model::require(spec.range, spec.name, out, value.place);
           },
       .write =
           [](const double& value, const Spec&) {

@@ -1,0 +1,268 @@
+// Every number of the input has a unit and a valid range: the schema tells it, the reader and the check keep it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "io/toml/key.h"
+#include "koshi/input.h"
+#include "support/broken_input.h"
+
+namespace koshi::io {
+namespace {
+
+using Json = nlohmann::json;
+using testing::HasSubstr;
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+// The numbers of a schema by path; elements of a list add nothing to it but those of a pair, which differ.
+void collect(const std::string& path, const Json& schema, std::map<std::string, Json>& numbers) {
+  if (schema.value("type", Json()) == Json({"number", "string"})) numbers[path] = schema;
+  if (schema.contains("properties"))
+    for (const auto& [key, value] : schema.at("properties").items())
+      collect(path.empty() ? key : path + "." + key, value, numbers);
+  if (schema.contains("additionalProperties") && schema.at("additionalProperties").is_object())
+    collect(path, schema.at("additionalProperties"), numbers);
+  if (!schema.contains("items")) return;
+  const Json& items = schema.at("items");
+  collect(path, items, numbers);
+  if (items.contains("prefixItems"))
+    for (std::size_t i = 0; i < items.at("prefixItems").size(); ++i)
+      collect(fmt::format("{}.{}", path, i), items.at("prefixItems")[i], numbers);
+}
+
+std::map<std::string, Json> numbers_of_schema() {
+  std::map<std::string, Json> numbers;
+  collect("", Json::parse(schema_json()), numbers);
+  return numbers;
+}
+
+// Where each number stands in a case of the corpus, as a path of --set.
+const std::map<std::string, std::string>& places() {
+  static const std::map<std::string, std::string> places{
+      {"lattice.spacing", "lattice.spacing"},
+      {"body.origin", "body.origin.1"},
+      {"body.size", "body.size.1"},
+      {"material.youngs_modulus", "material.soft.youngs_modulus"},
+      {"material.poissons_ratio", "material.soft.poissons_ratio"},
+      {"material.density", "material.soft.density"},
+      {"region.min", "region.0.min.0"},
+      {"region.max", "region.0.max.2"},
+      {"region.center", "region.1.center.1"},
+      {"region.radius", "region.1.radius"},
+      {"region.start", "region.2.start.1"},
+      {"region.end", "region.2.end.2"},
+      {"region.point", "region.3.point.0"},
+      {"region.normal", "region.3.normal.2"},
+      {"region.scale", "region.4.scale"},
+      {"boundary.box.min", "boundary.turned.box.min.0"},
+      {"boundary.box.max", "boundary.turned.box.max.2"},
+      {"boundary.point", "boundary.held.point"},
+      {"boundary.displacement.x", "boundary.1.displacement.x"},
+      {"boundary.displacement.y", "boundary.1.displacement.y"},
+      {"boundary.displacement.z", "boundary.1.displacement.z"},
+      {"boundary.displacement.rx", "boundary.1.displacement.rx"},
+      {"boundary.displacement.ry", "boundary.1.displacement.ry"},
+      {"boundary.displacement.rz", "boundary.1.displacement.rz"},
+      {"boundary.velocity.x", "boundary.1.velocity.x"},
+      {"boundary.velocity.y", "boundary.1.velocity.y"},
+      {"boundary.velocity.z", "boundary.1.velocity.z"},
+      {"boundary.velocity.rx", "boundary.1.velocity.rx"},
+      {"boundary.velocity.ry", "boundary.1.velocity.ry"},
+      {"boundary.velocity.rz", "boundary.1.velocity.rz"},
+      {"boundary.twist.x", "boundary.turned.twist.x"},
+      {"boundary.twist.y", "boundary.turned.twist.y"},
+      {"boundary.twist.z", "boundary.turned.twist.z"},
+      {"boundary.center", "boundary.turned.center.0"},
+      {"boundary.ramp", "boundary.1.ramp"},
+      {"boundary.history.0", "boundary.1.history.2.0"},
+      {"boundary.history.1", "boundary.1.history.1.1"},
+      {"load.box.min", "load.wind.box"},
+      {"load.box.max", "load.wind.box"},
+      {"load.point", "load.0.point"},
+      {"load.force", "load.0.force.0"},
+      {"load.traction", "load.wind.traction.1"},
+      {"load.pressure", "load.water.pressure"},
+      {"load.acceleration", "load.weight.acceleration.2"},
+      {"load.history.0", "load.0.history.1.0"},
+      {"load.history.1", "load.0.history.1.1"},
+      {"analysis.tolerance", "analysis.tolerance"},
+      {"analysis.duration", "analysis.duration"},
+      {"analysis.time_step", "analysis.time_step"},
+      {"analysis.safety", "analysis.safety"},
+      {"analysis.damping.factor", "analysis.damping.factor"},
+      {"analysis.damping.rate", "analysis.damping.rate"},
+      {"probe.box.min", "probe.a point.box"},
+      {"probe.box.max", "probe.a point.box"},
+      {"probe.point", "probe.a point.point.1"},
+      {"probe.center", "probe.a point.center"},
+      {"output.every", "output.every"},
+      {"output.history_every", "output.history_every"},
+      {"output.checkpoint_every", "output.checkpoint_every"},
+      {"output.checkpoint_every_wall", "output.checkpoint_every_wall"},
+  };
+  return places;
+}
+
+// The message about a number of the input; empty when nothing is wrong with it.
+std::string message_of(const std::string& name, const std::string& number) {
+  const std::filesystem::path corpus = std::filesystem::path(KOSHI_SOURCE_DIR) / "tests/fuzz/corpus/input";
+  const std::string& path = places().at(name);
+  std::string value = number;
+  // What the case does not give by itself is given whole.
+  if (path.ends_with(".point") || path.ends_with(".center")) value = fmt::format("[0, {}, 0]", number);
+  if (path.ends_with(".box"))
+    value = name.ends_with("min") ? fmt::format("{{ min = [0, 0, {}], max = [1, 1, 1] }}", number)
+                                  : fmt::format("{{ min = [0, 0, 0], max = [1, 1, {}] }}", number);
+  std::vector<std::string> overrides;
+  if (name == "analysis.damping.rate") overrides.emplace_back("analysis.damping.kind=viscous");
+  if (name == "probe.center") overrides.emplace_back("probe.a point.quantity=moment");
+  overrides.push_back(path + "=" + value);
+  try {
+    read_case(corpus / "stepped.toml", overrides);
+  } catch (const InputError& error) {
+    return error.message();
+  }
+  return "";
+}
+
+void expect_refused(const std::string& name, double value) {
+  EXPECT_THAT(message_of(name, fmt::format("{:.17g}", value)), HasSubstr("; it must ")) << name << " = " << value;
+}
+
+void expect_within(const std::string& name, double value) {
+  // Something else may be wrong with it, but not its range.
+  EXPECT_EQ(message_of(name, fmt::format("{:.17g}", value)).find("; it must "), std::string::npos)
+      << name << " = " << value;
+}
+
+// An open end is refused itself, a closed one is not; what lies beyond never goes through.
+TEST(Ranges, EveryNumberIsKeptToThem) {
+  int count = 0;
+  for (const auto& [name, schema] : numbers_of_schema()) {
+    ASSERT_TRUE(places().contains(name)) << name;
+    const bool open_below = schema.contains("exclusiveMinimum"), open_above = schema.contains("exclusiveMaximum");
+    const double least = schema.at(open_below ? "exclusiveMinimum" : "minimum");
+    const double most = schema.at(open_above ? "exclusiveMaximum" : "maximum");
+    EXPECT_LT(least, most) << name;
+    if (open_below)
+      expect_refused(name, least);
+    else
+      expect_within(name, least);
+    if (open_above)
+      expect_refused(name, most);
+    else
+      expect_within(name, most);
+    for (const double beyond : {std::nextafter(least, -infinity), std::nextafter(most, infinity), -1e300, 1e300})
+      expect_refused(name, beyond);
+    if (schema.contains("smallestSize")) {
+      const double smallest = schema.at("smallestSize");
+      for (const double sign : {-1.0, 1.0}) {
+        expect_within(name, sign * smallest);
+        expect_refused(name, sign * std::nextafter(smallest, 0.0));
+        expect_refused(name, sign * 1e-300);
+      }
+      expect_within(name, 0);
+    }
+    for (const char* no_number : {"nan", "-nan", "inf", "-inf"})
+      EXPECT_THAT(message_of(name, no_number), HasSubstr("expected a finite number")) << name;
+    EXPECT_THAT(message_of(name, "\"1e400\""), HasSubstr("is out of the range of numbers")) << name;
+    ++count;
+  }
+  EXPECT_EQ(count, 60);
+  EXPECT_EQ(places().size(), 60u);
+}
+
+// The unit of a range is the one in which the reader gives its values.
+template <class S>
+int check_units() {
+  int count = 0;
+  for (const auto& key : keys_of(Tag<S>{})) {
+    const model::Range& range = key.spec.range;
+    if (range.least == range.most) continue;  // no number
+    EXPECT_EQ(range.unit, words(key.spec.dimension).si_unit) << key.spec.name;
+    const model::Range& rotation = key.spec.rotation_range;
+    if (rotation.least != rotation.most) EXPECT_EQ(rotation.unit, words(key.spec.rotation).si_unit) << key.spec.name;
+    ++count;
+  }
+  return count;
+}
+
+TEST(Ranges, HaveTheUnitOfTheirKey) {
+  using namespace model;
+  EXPECT_EQ(check_units<LatticeDefinition>() + check_units<BodyDefinition>() + check_units<MaterialDefinition>() +
+                check_units<RegionDefinition>() + check_units<BoundaryDefinition>() + check_units<LoadDefinition>() +
+                check_units<AnalysisDefinition>() + check_units<DampingDefinition>() + check_units<ProbeDefinition>() +
+                check_units<OutputDefinition>(),
+            1 + 2 + 3 + 9 + 7 + 6 + 4 + 2 + 3 + 4);
+}
+
+// A program that fills the structs itself meets the same ranges.
+TEST(Ranges, HoldForDefinitionsOfAProgram) {
+  using D = model::Definition;
+  const std::vector<std::function<double&(D&)>> members{
+      [](D& d) -> double& { return d.lattice.spacing; },
+      [](D& d) -> double& { return d.body.origin[2]; },
+      [](D& d) -> double& { return d.body.size[0]; },
+      [](D& d) -> double& { return d.materials[0].elastic.youngs_modulus; },
+      [](D& d) -> double& { return d.materials[0].elastic.poissons_ratio; },
+      [](D& d) -> double& { return d.materials[0].elastic.density; },
+      [](D& d) -> double& { return d.regions[0].min[0]; },
+      [](D& d) -> double& { return d.regions[0].max[1]; },
+      [](D& d) -> double& { return d.regions[1].center[2]; },
+      [](D& d) -> double& { return d.regions[1].radius; },
+      [](D& d) -> double& { return d.regions[2].start[0]; },
+      [](D& d) -> double& { return d.regions[2].end[0]; },
+      [](D& d) -> double& { return d.regions[2].radius; },
+      [](D& d) -> double& { return d.regions[3].point[1]; },
+      [](D& d) -> double& { return d.regions[3].normal[1]; },
+      [](D& d) -> double& { return d.regions[4].scale; },
+      [](D& d) -> double& { return d.boundaries[1].displacement[0].emplace(); },
+      [](D& d) -> double& { return d.boundaries[1].displacement[5].emplace(); },
+      [](D& d) -> double& { return d.boundaries[1].velocity[2].emplace(); },
+      [](D& d) -> double& { return d.boundaries[1].velocity[4].emplace(); },
+      [](D& d) -> double& { return d.boundaries[1].ramp; },
+      [](D& d) -> double& { return d.boundaries[1].history[2][0]; },
+      [](D& d) -> double& { return d.boundaries[1].history[1][1]; },
+      [](D& d) -> double& { return d.boundaries[2].selection.box->first[0]; },
+      [](D& d) -> double& { return d.boundaries[2].selection.box->second[0]; },
+      [](D& d) -> double& { return d.boundaries[2].twist[2].emplace(); },
+      [](D& d) -> double& { return d.boundaries[2].center.emplace()[0]; },
+      [](D& d) -> double& { return d.loads[0].force.emplace()[0]; },
+      [](D& d) -> double& { return d.loads[1].traction.emplace()[0]; },
+      [](D& d) -> double& { return d.loads[2].pressure.emplace(); },
+      [](D& d) -> double& { return d.loads[3].acceleration.emplace()[0]; },
+      [](D& d) -> double& { return d.analysis.tolerance; },
+      [](D& d) -> double& { return d.analysis.duration.emplace(); },
+      [](D& d) -> double& { return d.analysis.time_step.emplace(); },
+      [](D& d) -> double& { return d.analysis.safety; },
+      [](D& d) -> double& { return d.analysis.damping.factor; },
+      [](D& d) -> double& { return d.analysis.damping.rate; },
+      [](D& d) -> double& { return d.probes[0].selection.point.emplace()[0]; },
+      [](D& d) -> double& { return d.output.every.emplace(); },
+      [](D& d) -> double& { return d.output.history_every.emplace(); },
+      [](D& d) -> double& { return d.output.checkpoint_every.emplace(); },
+      [](D& d) -> double& { return d.output.checkpoint_wall.emplace(); },
+  };
+  const D right = read_case(std::filesystem::path(KOSHI_SOURCE_DIR) / "tests/fuzz/corpus/input/stepped.toml");
+  ASSERT_NO_THROW(model::check(right));
+  int count = 0;
+  for (std::size_t m = 0; m < members.size(); ++m)
+    for (const double value : {-1e300, 1e300, infinity, -infinity, std::nan("")}) {
+      D wrong = right;
+      members[m](wrong) = value;
+      EXPECT_THROW(model::check(wrong), InputError) << "member " << m << " = " << value;
+      ++count;
+    }
+  EXPECT_EQ(count, 42 * 5);
+}
+
+}  // namespace
+}  // namespace koshi::io
