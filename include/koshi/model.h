@@ -75,7 +75,8 @@ double factor(const History& history, double t);
 /// Ramp times history of a boundary at time t [s].
 double factor(const BoundaryDefinition& boundary, double t);
 
-/// Memory [bytes] that a run of this definition needs on all its ranks together.
+/// Memory [bytes] that a run of this definition takes on all its ranks together, beside that of the program and its
+/// libraries, which depends on the machine.
 double predicted_memory(const Definition& definition, int ranks);
 
 /// What changes during a run. Component order: ux, uy, uz [m], rx, ry, rz [rad] (three components with least-squares).

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "base/memory.h"
 #include "calibration/calibrate.h"
 #include "driver/schedule.h"
 #include "driver/simulation.h"
@@ -49,14 +50,16 @@ std::string explicit_part(const model::Model& model) {
 }  // namespace
 
 std::string check(const model::Definition& definition, const Communicator& communicator) {
+  const double libraries = resident_memory(communicator).all;
   const model::Model model = load_model(definition, communicator);
   const std::vector<std::string> found = warnings(model);
   std::string text = "# resolved input\n" + io::resolved_toml(definition) + "\n# what it means\n";
   const Int3& cells = model.lattice.grid.cells;
   text += fmt::format("cells         {} x {} x {}, {} solid\nnodes         {}, {} unknowns\n", cells[0], cells[1],
                       cells[2], model.cell_count, model.node_count, model.node_count * model.components());
-  text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB\n", model.motion_count,
-                      model::predicted_memory(model.definition, communicator.size()) / 1e9);
+  const double body = model::predicted_memory(model.definition, communicator.size());
+  text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB, of it {:.3g} GB for the body\n",
+                      model.motion_count, (libraries + body) / 1e9, body / 1e9);
   if (definition.analysis.type != model::AnalysisDefinition::Type::statics) text += explicit_part(model);
   for (const std::string& warning : found) text += "warning       " + warning + "\n";
   for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)

@@ -47,8 +47,12 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
   return entry;
 }
 
-Json performance(const model::Model& model, const Outcome& outcome, double peak_memory) {
-  Json entry{{"seconds", outcome.seconds}, {"ranks", model.communicator.size()}, {"peak_memory", peak_memory}};
+Json performance(const model::Model& model, const Outcome& outcome, const RunMemory& memory) {
+  Json entry{{"seconds", outcome.seconds},
+             {"ranks", model.communicator.size()},
+             {"peak_memory", memory.peak},
+             {"memory_before", memory.before.all},
+             {"library_growth", memory.at_end.shared - memory.before.shared}};
   if (outcome.solution) {
     entry["setup_seconds"] = outcome.solution->setup_seconds;
     entry["solve_seconds"] = outcome.solution->solve_seconds;
@@ -86,7 +90,7 @@ std::vector<double> history_row(double time, const mechanics::Measurement& measu
 }
 
 nlohmann::ordered_json summary(const model::Model& model, const model::State& state, const Outcome& outcome,
-                               double peak_memory) {
+                               const RunMemory& memory) {
   const mechanics::Measurement& end = outcome.measurement;
   Json probes = Json::object();
   for (std::size_t p = 0; p < model.probes.size(); ++p) {
@@ -104,7 +108,7 @@ nlohmann::ordered_json summary(const model::Model& model, const model::State& st
           {"analysis", analysis(model, state, outcome)},
           {"probes", probes},
           {"energy", {{"elastic", end.balance.elastic_energy}, {"kinetic", end.balance.kinetic_energy}}},
-          {"performance", performance(model, outcome, peak_memory)}};
+          {"performance", performance(model, outcome, memory)}};
 }
 
 std::string headline(const model::Model& model, const Outcome& outcome) {

@@ -14,9 +14,16 @@ namespace koshi::driver {
 std::vector<std::string> history_columns(const model::Model& model);
 std::vector<double> history_row(double time, const mechanics::Measurement& measurement);
 
-/// summary.json (docs/formats/output.md); `peak_memory` [bytes] of all ranks together.
+/// Memory of a run, of all its ranks together [bytes].
+struct RunMemory {
+  double peak = 0;        ///< the most
+  ResidentMemory before;  ///< before the model was made
+  ResidentMemory at_end;
+};
+
+/// summary.json (docs/formats/output.md).
 nlohmann::ordered_json summary(const model::Model& model, const model::State& state, const Outcome& outcome,
-                               double peak_memory);
+                               const RunMemory& memory);
 
 /// A few lines for the terminal.
 std::string headline(const model::Model& model, const Outcome& outcome);

@@ -84,7 +84,8 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   // An equilibrium may be the start of another run; other runs keep their end when they keep checkpoints at all.
   const bool equilibrium = definition.analysis.type != model::AnalysisDefinition::Type::dynamic;
   if (equilibrium || definition.output.checkpoint_every || definition.output.checkpoint_wall) checkpoints.write(state);
-  io::write_summary(communicator, options.directory, summary(model, state, outcome, peak_memory(communicator)));
+  const RunMemory memory{peak_memory(communicator), simulation.memory_before(), resident_memory(communicator)};
+  io::write_summary(communicator, options.directory, summary(model, state, outcome, memory));
   collectively(communicator, [&] {
     if (definition.output.report && communicator.is_root()) report::write_report(options.directory);
   });

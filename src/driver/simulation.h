@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "base/memory.h"
 #include "koshi/dynamics.h"
 #include "koshi/model.h"
 #include "koshi/statics.h"
@@ -74,6 +75,8 @@ class Simulation {
   /// The state, at rest until something changes it; takes its memory when first asked for.
   model::State& state();
   mechanics::Meter& meter() { return *meter_; }
+  /// What the ranks held before the model was made.
+  const ResidentMemory& memory_before() const { return memory_before_; }
 
  private:
   Outcome run_static(const Observer& observer, const std::vector<std::string>& petsc_options);
@@ -82,6 +85,7 @@ class Simulation {
   void check_support() const;
   void check_divergence(const mechanics::Balance& balance, const Observer& observer) const;
 
+  ResidentMemory memory_before_;
   // On the heap, since parts refer to each other. Of the model only factors of loads and boundaries ever change.
   std::unique_ptr<model::Model> model_;
   std::unique_ptr<mechanics::ForceKernel<double>> kernel_;

@@ -18,9 +18,6 @@
 namespace koshi::model {
 namespace {
 
-// A process beside its model and state, with its libraries and their buffers [bytes].
-constexpr double process = 80e6;
-
 // The static solver beside the model and the state (statics/level.h, solve_static.cpp): PETSc's solution and three
 // vectors of conjugate gradients, without ghosts; on each level b, x and y in single precision with ghosts and padding;
 // the coarsest level as a matrix of 27 nodes a row and its Cholesky factor, which were measured. Mixed bodies take
@@ -123,7 +120,7 @@ double predicted_memory(const Definition& definition, int ranks) {
   if (statics) {
     // The solver's memory is free again when fields are written.
     const double solver = solver_bytes(grid, components, ranks) + mixed_bytes(definition, grid, components);
-    return process * ranks + bytes * static_cast<double>(whole.size()) + std::max(solver, sample);
+    return bytes * static_cast<double>(whole.size()) + std::max(solver, sample);
   }
   bytes += 8 * inertias + (orients ? 32 : 0);
   // Boxes with ghosts and padding; and every rank keeps the materials of all cells where they come from an image.
@@ -131,7 +128,7 @@ double predicted_memory(const Definition& definition, int ranks) {
   double size = 0;
   for (int rank = 0; rank < ranks; ++rank) size += static_cast<double>(partition.layout(rank).size());
   const double image = static_cast<double>(definition.body.cells.size());
-  return (process + image) * ranks + bytes * size + sample;
+  return image * ranks + bytes * size + sample;
 }
 
 void check_memory(const Definition& definition, int ranks) {
