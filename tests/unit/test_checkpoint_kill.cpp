@@ -39,12 +39,15 @@ struct Victim {
     std::array<char*, 3> arguments{program.data(), argument.data(), nullptr};
     ASSERT_EQ(posix_spawn(&pid, program.c_str(), nullptr, nullptr, arguments.data(), environ), 0);
   }
+  /// Until it has written one of its own.
   void wait_for_checkpoint() const {
     std::error_code ignored;
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-    while ((!fs::exists(last()) || fs::last_write_time(last(), ignored) == before) &&
-           std::chrono::steady_clock::now() < deadline)
+    while ((!fs::exists(last()) || fs::last_write_time(last(), ignored) == before) && is_alive())
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  bool is_alive() const {
+    siginfo_t ended{};
+    return waitid(P_PID, static_cast<id_t>(pid), &ended, WEXITED | WNOHANG | WNOWAIT) == 0 && ended.si_pid == 0;
   }
   void kill() {
     ::kill(pid, SIGKILL);
@@ -76,8 +79,9 @@ TEST(CheckpointKill, LastCheckpointIsWholeAtEveryMoment) {
     fs::create_directory(victims[v].directory);
   }
   std::mt19937 random(1);
+  // At least ten rounds, and as many as it takes to hit the writing itself.
   int kills = 0, killed_while_writing = 0;
-  for (int round = 0; round < 10; ++round) {
+  for (int round = 0; round < 10 || killed_while_writing < 10; ++round) {
     for (Victim& victim : victims) victim.start();
     for (Victim& victim : victims) {
       // Killed up to 40 ms after a checkpoint of its own has appeared: that is after several more.
@@ -95,8 +99,7 @@ TEST(CheckpointKill, LastCheckpointIsWholeAtEveryMoment) {
       victim.step = reached;
     }
   }
-  EXPECT_EQ(kills, 40);
-  EXPECT_GT(killed_while_writing, kills / 4) << "most of the time goes into writing";
+  EXPECT_GE(kills, 40);
 }
 
 }  // namespace
