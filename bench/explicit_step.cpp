@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <string>
 #include <vector>
 
 #include "koshi/dynamics.h"
@@ -21,7 +22,8 @@ struct Choice {
   Calibration calibration;
   Kinematics kinematics;
   double nu;
-  int materials;  // 1: uniform block; more: every cell one of them at random
+  int materials;         // 1: uniform block; more: every cell one of them at random
+  bool factors = false;  // every cell has a factor of its own
 };
 
 constexpr Choice choices[] = {
@@ -37,8 +39,14 @@ constexpr Choice choices[] = {
      Kinematics::rotational, 0.18, 2},
     {"Cube-III volumetric, rotational, 3 materials mixed", CellType::cube_iii, Calibration::bending_exact,
      Kinematics::rotational, 0.18, 3},
+    {"Cube-III volumetric, rotational, 1000 materials mixed", CellType::cube_iii, Calibration::bending_exact,
+     Kinematics::rotational, 0.18, 1000},
+    {"Cube-III volumetric, rotational, 3 materials and factors mixed", CellType::cube_iii, Calibration::bending_exact,
+     Kinematics::rotational, 0.18, 3, true},
     {"Cube-III volumetric, least-squares, 3 materials mixed", CellType::cube_iii, Calibration::bending_exact,
      Kinematics::least_squares, 0.18, 3},
+    {"Cube-III volumetric, least-squares, 1000 materials mixed", CellType::cube_iii, Calibration::bending_exact,
+     Kinematics::least_squares, 0.18, 1000},
 };
 
 model::Definition block(const Choice& choice, int nodes) {
@@ -50,15 +58,23 @@ model::Definition block(const Choice& choice, int nodes) {
   const double side = 1e-3 * (nodes - 1);
   definition.body.size = {side, side, side};
   definition.body.material = "a";
-  for (const char* name : {"a", "b", "c"})
-    definition.materials.push_back({name, {1e9 * (1 + definition.materials.size()), choice.nu, 2000}});
+  for (int m = 0; m < std::max(choice.materials, 3); ++m)
+    definition.materials.push_back({m == 0 ? "a" : "a" + std::to_string(m), {1e9 * (1 + m % 100), choice.nu, 2000}});
   if (choice.materials > 1) {
     const auto count = static_cast<std::size_t>(nodes - 1);
     definition.body.cells.resize(count * count * count);
     std::uint32_t random = 1;
     for (auto& cell : definition.body.cells) {
       random = random * 1664525u + 1013904223u;
-      cell = static_cast<std::uint8_t>(1 + (random >> 20) % static_cast<std::uint32_t>(choice.materials));
+      cell = static_cast<std::uint16_t>(1 + (random >> 20) % static_cast<std::uint32_t>(choice.materials));
+    }
+  }
+  if (choice.factors) {
+    std::uint32_t random = 2;
+    definition.body.factors.resize(definition.body.cells.size());
+    for (float& factor : definition.body.factors) {
+      random = random * 1664525u + 1013904223u;
+      factor = static_cast<float>(random >> 8) / (1u << 24);
     }
   }
   model::BoundaryDefinition bottom;

@@ -42,7 +42,10 @@ struct BodyDefinition {
   std::string image;                           ///< file of cell values (.npy, .vti, .mha, .mhd, .nrrd); empty: none
   std::map<int, std::string> image_materials;  ///< image value -> material name or "void" (key `materials`)
   /// Material of each cell, x fastest, 0 = empty, k = materials[k - 1]; filled from the image, or by a program.
-  std::vector<std::uint8_t> cells;
+  std::vector<std::uint16_t> cells;
+  std::string factor;  ///< file of factors 0 ... 1 on the cells' stiffness, in the formats of an image; empty: all 1
+  /// Factor of each cell, x fastest; empty: all 1; filled from the file, or by a program. Shared springs only.
+  std::vector<float> factors;
   bool operator==(const BodyDefinition&) const = default;
 };
 

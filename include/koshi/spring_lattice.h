@@ -16,20 +16,10 @@ struct Partition;
 
 namespace koshi::model {
 
-/// Stiffness of the bonds of one class: one family, one mixture of materials around the bond.
-struct BondClass {
-  double kn = 0;        ///< [N/m]
-  double kt = 0;        ///< [N/m]
-  int solid_cells = 0;  ///< cells that share the bond and are not empty
-};
-
-/// Cells, bonds and springs on one rank's nodes and ghosts.
-/// - cell: component 0, material index of a cell (0 = empty) at the index of its lowest corner; known for the cells
-///   that touch an owned node.
-/// - bond: component = slot, class of a node's forward bond (0 = absent); known on owned and ghost nodes.
+/// Cells and springs on one rank's nodes and ghosts. Fields of cells have one component, with the cell's value at the
+/// index of its lowest corner; they are known for the cells that touch an owned node.
 struct SpringLattice {
-  static constexpr int max_materials = 255;  ///< a cell names its material by a byte
-  static constexpr int max_classes = 255;    ///< and a node its bonds
+  static constexpr int max_materials = 65535;  ///< a cell names its material by two bytes
 
   lattice::Grid grid;                                                  ///< of the whole body
   lattice::Layout layout;                                              ///< of this rank's nodes
@@ -38,31 +28,44 @@ struct SpringLattice {
   material::Sharing sharing = material::Sharing::shared;               ///< how bonds get their stiffness
   material::Kinematics kinematics = material::Kinematics::rotational;  ///< where rotations come from
 
-  lattice::Field<std::uint8_t> cell;       ///< material index of cells
-  lattice::Field<std::uint8_t> bond;       ///< class of forward bonds, by slot
-  std::vector<BondClass> classes;          ///< by class; class 0 is the absent bond
+  lattice::Field<std::uint16_t> cell;  ///< material index of cells, 0 = empty
+  /// Factor s of cells, 0 ... 1, on all springs of a cell with its share of bonds; no components where all are 1.
+  /// Kernels and measures read it every time, so its values may change between two steps; a static analysis makes its
+  /// hierarchy from it when it begins. Shared springs only.
+  lattice::Field<float> factor;
   std::vector<material::Springs> springs;  ///< by material index; entry 0 (empty) is zero
+  /// Plain springs only: stiffness of forward bonds, component 2 slot: kn, 2 slot + 1: kt [N/m], and the number of
+  /// solid cells around them, component slot; known on owned and ghost nodes.
+  lattice::Field<double> bond;
+  lattice::Field<std::uint8_t> bond_cells;
 
   /// Unknowns per node: three displacements, and three rotations with rotational kinematics.
   int components() const { return kinematics == material::Kinematics::rotational ? 6 : 3; }
-  /// Whether some material has a volumetric spring.
-  bool has_volumetric() const;
+  /// Of the cell at index n, 1 where there is no field of factors.
+  double factor_of(std::int64_t n) const {
+    return factor.components() == 0 ? 1 : static_cast<double>(factor.component(0)[n]);
+  }
 };
 
-/// A lattice with its cells, not yet its bonds: `material_of(global cell)` gives the material index (0 = empty); cells
-/// outside the body are empty.
+/// A lattice with its cells, not yet its springs: `material_of(global cell)` gives the material index (0 = empty);
+/// cells outside the body are empty.
 SpringLattice make_cells(const lattice::Grid& grid, std::shared_ptr<const lattice::Partition> partition,
                          std::shared_ptr<const lattice::Halo> halo,
-                         const std::function<std::uint8_t(const Int3&)>& material_of);
+                         const std::function<std::uint16_t(const Int3&)>& material_of);
+
+/// Gives the cells factors: `factor_of(global cell)`, 0 ... 1.
+void make_factors(SpringLattice& body, const std::function<float(const Int3&)>& factor_of);
 
 /// Bonds of the whole body by slot (collective): with plain springs each counts one, with shared springs the part of it
 /// that its solid cells own. Families the unit cell lacks are counted as if they were there.
 std::array<double, lattice::slot_count> count_bonds(const SpringLattice& body, material::Sharing sharing);
 
-/// Adds the bonds. Shared springs: a bond is the sum of its cells' shares. Plain springs: the mean over its solid
-/// cells. `springs` by material index, entry 0 zero. Throws InputError when the mixtures need more than max_classes
-/// classes.
-void make_bonds(SpringLattice& body, material::Sharing sharing, material::Kinematics kinematics,
-                std::vector<material::Springs> springs);
+/// Adds the springs, by material index, entry 0 zero (collective).
+void set_springs(SpringLattice& body, material::Sharing sharing, material::Kinematics kinematics,
+                 std::vector<material::Springs> springs);
+
+/// Stiffness of every bond of the body as it is now, stored as in SpringLattice (collective). Shared springs: a bond is
+/// the sum of its cells' shares, factors included. Plain springs: the mean over its solid cells.
+void make_bonds(const SpringLattice& body, lattice::Field<double>& bond, lattice::Field<std::uint8_t>& bond_cells);
 
 }  // namespace koshi::model

@@ -30,6 +30,16 @@ void set_cells(model::Definition& definition, const Values& values) {
   definition.body.image.clear();
 }
 
+// Factors of the cells from an array [z][y][x] in place of the file that body.factor names.
+void set_factors(model::Definition& definition, const py::array_t<float, py::array::c_style>& values) {
+  const Int3 cells{values.shape(2), values.shape(1), values.shape(0)};
+  const io::CellImage image{cells, {1, cells[0], cells[0] * cells[1]}, [data = values.data()](std::int64_t i) {
+                              return static_cast<double>(data[i]);
+                            }};
+  io::set_factors(image, definition);
+  definition.body.factor.clear();
+}
+
 std::string calibrate(const model::Definition& definition, bool of_body) {
   const auto size = of_body ? std::optional(definition.body.size) : std::nullopt;
   return calibration::calibration_json(
@@ -54,7 +64,8 @@ PYBIND11_MODULE(_koshi, module) {
 
   py::class_<model::Definition>(module, "Definition")
       .def("resolved_toml", [](const model::Definition& definition) { return io::resolved_toml(definition); })
-      .def("set_cells", python::set_cells);
+      .def("set_cells", python::set_cells)
+      .def("set_factors", python::set_factors);
   module.def("read_case", [](const std::string& file, const std::vector<std::string>& overrides) {
     return io::read_case(file, overrides);
   });

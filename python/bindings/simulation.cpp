@@ -114,7 +114,7 @@ void bind_simulation(py::module_& module) {
   });
   simulation.def("cells", [](const py::object& self) {
     auto& s = self.cast<Simulation&>();
-    auto& cell = const_cast<lattice::Field<std::uint8_t>&>(s.model().lattice.cell);
+    auto& cell = const_cast<lattice::Field<std::uint16_t>&>(s.model().lattice.cell);
     const Int3 box = owned_cells(s.model().lattice.grid, s.model().layout());
     return view_of(cell, s.model().layout(), 1, box, self, false)[py::int_(0)].cast<py::array>();
   });

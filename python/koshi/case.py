@@ -53,6 +53,8 @@ class Body:
     """value of each cell: a file, or an array of whole numbers (nz, ny, nx)"""
     materials: Mapping[int, str] | None = None
     """material, or "void", of each value in the image"""
+    factor: str | os.PathLike | np.ndarray | None = None
+    """factor 0 ... 1 on the stiffness of each cell: a file, or an array (nz, ny, nx); default 1"""
     origin: Vector | None = None
     """lower corner [m], default (0, 0, 0)"""
     periodic: Sequence[bool] | None = None
@@ -281,19 +283,30 @@ def _is_empty(value) -> bool:
 def _definition(case: Case | str | os.PathLike, overrides: Sequence[str] = ()) -> _koshi.Definition:
     if isinstance(case, (str, os.PathLike)):
         return _koshi.read_case(os.fspath(case), list(overrides))
-    image = case.body.image
-    if not isinstance(image, np.ndarray):
-        return _koshi.read_values(_plain(case), list(overrides))
-    if image.dtype.kind not in "biu" or image.ndim != 3:
-        raise InputError(
-            f"body.image: error: the array has the type {image.dtype} and the shape {image.shape}; expected whole "
-            "numbers or bool and three axes, [z][y][x]"
-        )
-    # The reader sees a file's name in place of the array.
-    named = dataclasses.replace(case, body=dataclasses.replace(case.body, image="array.npy"))
-    definition = _koshi.read_values(_plain(named), list(overrides))
-    definition.set_cells(np.ascontiguousarray(image, dtype=np.int64))
+    image, factor = case.body.image, case.body.factor
+    # The reader sees a file's name in place of an array.
+    named = {}
+    if isinstance(image, np.ndarray):
+        _check_array("body.image", image, "biu", "whole numbers or bool")
+        named["image"] = "array.npy"
+    if isinstance(factor, np.ndarray):
+        _check_array("body.factor", factor, "biuf", "numbers")
+        named["factor"] = "array.npy"
+    case = dataclasses.replace(case, body=dataclasses.replace(case.body, **named))
+    definition = _koshi.read_values(_plain(case), list(overrides))
+    if "image" in named:
+        definition.set_cells(np.ascontiguousarray(image, dtype=np.int64))
+    if "factor" in named:
+        definition.set_factors(np.ascontiguousarray(factor, dtype=np.float32))
     return definition
+
+
+def _check_array(key: str, array: np.ndarray, kinds: str, expected: str) -> None:
+    if array.dtype.kind not in kinds or array.ndim != 3:
+        raise InputError(
+            f"{key}: error: the array has the type {array.dtype} and the shape {array.shape}; expected {expected} "
+            "and three axes, [z][y][x]"
+        )
 
 
 InputError = _koshi.InputError

@@ -154,6 +154,30 @@ def test_voxel_image_from_an_array(case):
     assert (koshi.Simulation(case).cells == simulation.cells).all()
 
 
+def test_factors_from_an_array(case, tmp_path):
+    # A bar of half the stiffness gives twice.
+    case.analysis = koshi.Analysis("static")
+    whole = koshi.Simulation(case)
+    whole.run()
+    nz, ny, nx = whole.cells.shape
+    case.body.factor = np.full((nz, ny, nx), 0.5)
+    half = koshi.Simulation(case)
+    half.run()
+    assert half.displacement == pytest.approx(2 * whole.displacement, rel=1e-6, abs=1e-15)
+    assert (half.mass == whole.mass).all()
+    # A run writes them beside its resolved input, which can be run again.
+    koshi.run(case, out=tmp_path / "out")
+    again = koshi.Simulation(tmp_path / "out" / "resolved.toml")
+    again.run()
+    assert (again.displacement == half.displacement).all()
+    case.body.factor = np.full((nz, ny, nx), 1.5)
+    with pytest.raises(koshi.InputError, match="body.factor: error: the factor of cell .0, 0, 0. is 1.5"):
+        koshi.Simulation(case)
+    case.body.factor = np.ones((nz, ny))
+    with pytest.raises(koshi.InputError, match="body.factor: error: the array has the type float64 and the shape"):
+        koshi.Simulation(case)
+
+
 def test_wrong_arrays_raise(case):
     voxels(case)
     case.body.materials = {0: "void", 5: "rock"}

@@ -15,7 +15,7 @@ namespace koshi::driver {
 namespace {
 
 // Seconds of one force pass over the body, the least of three.
-double seconds_per_pass(const model::Model& model, mechanics::ForceKernel<double>& kernel) {
+double seconds_per_pass(const model::Model& model, mechanics::ForceKernel& kernel) {
   lattice::Field<double> u(model.layout(), model.components()), force(model.layout(), model.components());
   double least = std::numeric_limits<double>::infinity();
   for (int repeat = 0; repeat < 3; ++repeat) {
@@ -33,7 +33,7 @@ std::string duration(double seconds) {
 }
 
 std::string explicit_part(const model::Model& model) {
-  mechanics::ForceKernel<double> kernel(model.lattice);
+  mechanics::ForceKernel kernel(model.lattice);
   const mechanics::StableStep stable = mechanics::stable_step(model, kernel);
   const model::AnalysisDefinition& analysis = model.definition.analysis;
   const double dt = analysis.time_step.value_or(analysis.safety * stable.limit());

@@ -16,7 +16,7 @@ const std::vector<std::string> tensor_names{"xx", "yy", "zz", "yz", "xz", "xy"};
 template <class F>
 Field<double> on_cells(const model::Model& model, const Field<double>& u, int components, F&& f) {
   Field<double> field(model.layout(), components);
-  const std::uint8_t* cell = model.lattice.cell.component(0);
+  const std::uint16_t* cell = model.lattice.cell.component(0);
   lattice::for_each_owned(model.layout(), [&](auto, auto, auto, auto n) {
     if (cell[n] == 0) return;
     const mechanics::CellState state = mechanics::cell_state(model.lattice, u, n);

@@ -38,7 +38,7 @@ model::Model load_model(const model::Definition& definition, const Communicator&
 Simulation::Simulation(const model::Definition& definition, const Communicator& communicator)
     : memory_before_(resident_memory(communicator)),
       model_(std::make_unique<model::Model>(load_model(definition, communicator))),
-      kernel_(std::make_unique<mechanics::ForceKernel<double>>(model_->lattice)),
+      kernel_(std::make_unique<mechanics::ForceKernel>(model_->lattice)),
       meter_(std::make_unique<mechanics::Meter>(*model_, *kernel_)) {}
 
 model::State& Simulation::state() {

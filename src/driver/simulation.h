@@ -88,7 +88,7 @@ class Simulation {
   ResidentMemory memory_before_;
   // On the heap, since parts refer to each other. Of the model only factors of loads and boundaries ever change.
   std::unique_ptr<model::Model> model_;
-  std::unique_ptr<mechanics::ForceKernel<double>> kernel_;
+  std::unique_ptr<mechanics::ForceKernel> kernel_;
   std::unique_ptr<mechanics::Meter> meter_;
   std::optional<std::vector<std::string>> warnings_;  ///< set once prepared
   std::unique_ptr<model::State> state_;

@@ -10,6 +10,8 @@
 namespace koshi::dynamics {
 namespace {
 
+using mechanics::Rows;
+
 Kick make_kick(const model::DampingDefinition& damping, double dt) {
   using Kind = model::DampingDefinition::Kind;
   const double c = damping.kind == Kind::viscous ? 0.5 * damping.rate * dt : 0;
@@ -25,26 +27,19 @@ lattice::Field<double> inverse(const lattice::Layout& layout, const lattice::Fie
   return result;
 }
 
-// Rows of nodes in y whose displacements on three planes and velocities on two stay in the second-level cache.
-std::int64_t rows_in_cache(const model::Model& model) {
-  constexpr std::int64_t cache = 768 * 1024;
-  const std::int64_t row = static_cast<std::int64_t>(sizeof(double)) * model.components() * model.layout().pitch();
-  return std::max<std::int64_t>(4, (cache / row - 6) / 5);
-}
-
 }  // namespace
 
 struct ExplicitSolver::Implementation {
   const model::Model& model;
   model::State& state;
   const double dt;
+  const lattice::Halo& halo = *model.lattice.halo;
   const Kick kick;
   const RowUpdate& update = row_update();
-  mechanics::ForceKernel<double> kernel;
+  mechanics::ForceKernel kernel;
   mechanics::LoadRows loads;
   mechanics::RowIndex motion_rows;
   lattice::Field<double> inverse_inertia;
-  const std::int64_t block_rows;
   const double origin;  // time of step 0: times are origin + step dt, so that they do not gather rounding
 
   Implementation(const model::Model& m, model::State& s, double step)
@@ -56,7 +51,6 @@ struct ExplicitSolver::Implementation {
         loads(m),
         motion_rows(m.layout(), m.motions, [](const model::PrescribedMotion& p) { return p.node; }),
         inverse_inertia(inverse(m.layout(), m.inertia)),
-        block_rows(rows_in_cache(m)),
         origin(s.time - static_cast<double>(s.step) * step) {
     if (state.step == 0 && state.time == 0) take_initial_displacements();
   }
@@ -71,9 +65,56 @@ struct ExplicitSolver::Implementation {
         state.displacement.component(motion.component)[motion.node] = motion.value * factor(motion, 0);
   }
 
-  // Prescribed components of a row: the velocity that leads to the displacement at the end of the step, or the velocity
-  // at its middle.
-  void impose_motion(std::int64_t row) {
+  // --- The seven phases of a step. Phases 3 to 6 act on a row of nodes as soon as phase 2 has its force, phase 7 as
+  // soon as no other row needs its displacements any more, so that a row is in the cache from its first phase to its
+  // last.
+  void step() {
+    const auto [inner, borders] = regions();
+    loads.set_time(state.time);
+    begin_exchange();
+    advance(inner);  // rows that need no ghosts, while the ghosts are on their way
+    end_exchange();
+    for (const Rows& border : borders) advance(border);
+    drift_borders();
+    ++state.step;
+    state.time = origin + static_cast<double>(state.step) * dt;
+  }
+
+  // 1. Exchange the halo of displacements.
+  void begin_exchange() {
+    if (halo.active()) halo.begin(state.displacement);
+  }
+  void end_exchange() {
+    if (halo.active()) halo.end();
+  }
+
+  // Takes rows through phases 2 to 7.
+  void advance(const Rows& rows) {
+    kernel.for_each_row(
+        state.displacement, rows,  // 2. internal force
+        [&](std::int64_t j, std::int64_t k, double* const* force) {
+          loads.add(j, k, force);      // 3. add loads
+          damp_and_kick(j, k, force);  // 4. and 5.
+          impose_motion(j, k);         // 6.
+        },
+        [&](std::int64_t j, std::int64_t k) {
+          if (!touches_border(j, k)) drift(j, k);  // 7.
+        });
+  }
+
+  // 4. Damp (N27) and 5. kick: velocities by the acceleration (N5).
+  void damp_and_kick(std::int64_t j, std::int64_t k, double* const* force) {
+    const lattice::Layout& layout = model.layout();
+    const std::int64_t n = layout.index(0, j, k);
+    for (int c = 0; c < model.components(); ++c)
+      update.kick(kick, layout.owned()[0], layout.pitch(), force[c], inverse_inertia.component(c < 3 ? 0 : 1) + n,
+                  state.velocity.component(c) + n);
+  }
+
+  // 6. Impose prescribed motion: the velocity that leads to the displacement at the end of the step, or the velocity at
+  // its middle.
+  void impose_motion(std::int64_t j, std::int64_t k) {
+    const std::int64_t row = j + model.layout().owned()[1] * k;
     for (std::size_t m = motion_rows.begin(row); m < motion_rows.end(row); ++m) {
       const model::PrescribedMotion& motion = model.motions[m];
       double& v = state.velocity.component(motion.component)[motion.node];
@@ -83,18 +124,8 @@ struct ExplicitSolver::Implementation {
     }
   }
 
-  void kick_row(std::int64_t j, std::int64_t k) {
-    const lattice::Layout& layout = model.layout();
-    double* const* force = kernel.row(state.displacement, j, k);
-    loads.add(j, k, force);
-    const std::int64_t n = layout.index(0, j, k);
-    for (int c = 0; c < model.components(); ++c)
-      update.kick(kick, layout.owned()[0], layout.pitch(), force[c], inverse_inertia.component(c < 3 ? 0 : 1) + n,
-                  state.velocity.component(c) + n);
-    impose_motion(j + layout.owned()[1] * k);
-  }
-
-  void drift_row(std::int64_t j, std::int64_t k) {
+  // 7. Drift: displacements by the velocities (N6), orientations with them.
+  void drift(std::int64_t j, std::int64_t k) {
     const std::int64_t n = model.layout().index(0, j, k);
     for (int c = 0; c < model.components(); ++c)
       update.drift(dt, model.layout().owned()[0], state.velocity.component(c) + n, state.displacement.component(c) + n);
@@ -112,57 +143,40 @@ struct ExplicitSolver::Implementation {
     }
   }
 
-  // Moves the rows lo <= j < hi of plane k, without those closer than `margin` to the border.
-  void drift_rows(std::int64_t lo, std::int64_t hi, std::int64_t k, std::int64_t margin) {
-    const Int3& owned = model.layout().owned();
-    if (k < margin || k >= owned[2] - margin) return;
-    lo = std::max(lo, margin);
-    hi = std::min(hi, owned[1] - margin);
-    for (std::int64_t j = lo; j < hi; ++j) drift_row(j, k);
+  // --- What the exchange asks for: rows with ghosts around them come last, and rows that they need do not drift
+  // before.
+
+  struct Regions {
+    Rows inner;
+    std::array<Rows, 4> borders;  // some may be empty
+  };
+
+  Regions regions() const {
+    const std::int64_t ny = model.layout().owned()[1], nz = model.layout().owned()[2];
+    if (!halo.active()) return {kernel.all_rows(), {}};
+    if (!rows_are_whole()) return {{}, {kernel.all_rows()}};
+    const std::int64_t upper_z = std::max<std::int64_t>(nz - 1, 1), upper_y = std::max<std::int64_t>(ny - 1, 1);
+    return {{1, ny - 1, 1, nz - 1},
+            {Rows{0, ny, 0, 1}, Rows{0, 1, 1, upper_z}, Rows{upper_y, ny, 1, upper_z}, Rows{0, ny, upper_z, nz}}};
   }
 
-  // Kicks the rows that are `border` or more away from the border, and moves those whose neighbours are all among them.
-  // Blocks of a few rows go up through all planes, so that what a row's neighbours read is still in the cache; a row
-  // moves when the last row that reads it, the next one in the plane above, has its force.
-  void step_inner(std::int64_t border) {
-    const Int3& owned = model.layout().owned();
-    const std::int64_t last_row = owned[1] - border, last_plane = owned[2] - border;
-    for (std::int64_t begin = border; begin < last_row; begin += block_rows) {
-      const std::int64_t end = std::min(begin + block_rows, last_row);
-      const std::int64_t lo = begin - 1, hi = end == last_row ? end : end - 1;
-      for (std::int64_t k = border; k < last_plane; ++k) {
-        for (std::int64_t j = begin; j < end; ++j) kick_row(j, k);
-        drift_rows(lo, hi, k - 1, 2 * border);
-      }
-      drift_rows(lo, hi, last_plane - 1, 2 * border);
-    }
+  bool rows_are_whole() const {
+    return model.layout().owned()[0] == model.lattice.grid.nodes()[0] && !model.lattice.grid.periodic[0];
   }
 
-  // Rows that need no ghosts are done while the ghosts are on their way.
-  void step() {
+  // Is the row one of a border region, or next to one?
+  bool touches_border(std::int64_t j, std::int64_t k) const {
+    if (!halo.active()) return false;
     const Int3& owned = model.layout().owned();
-    const lattice::Halo& halo = *model.lattice.halo;
-    loads.set_time(state.time);
-    if (!halo.active()) {
-      step_inner(0);
-    } else {
-      const bool rows_are_whole = owned[0] == model.lattice.grid.nodes()[0] && !model.lattice.grid.periodic[0];
-      const std::int64_t border = rows_are_whole ? 1 : owned[1] + owned[2];
-      const auto inside = [&](std::int64_t j, std::int64_t k, std::int64_t margin) {
-        return j >= margin && k >= margin && j < owned[1] - margin && k < owned[2] - margin;
-      };
-      halo.begin(state.displacement);
-      step_inner(border);
-      halo.end();
-      for (std::int64_t k = 0; k < owned[2]; ++k)
-        for (std::int64_t j = 0; j < owned[1]; ++j)
-          if (!inside(j, k, border)) kick_row(j, k);
-      for (std::int64_t k = 0; k < owned[2]; ++k)
-        for (std::int64_t j = 0; j < owned[1]; ++j)
-          if (!inside(j, k, 2 * border)) drift_row(j, k);
-    }
-    ++state.step;
-    state.time = origin + static_cast<double>(state.step) * dt;
+    return !rows_are_whole() || j < 2 || k < 2 || j >= owned[1] - 2 || k >= owned[2] - 2;
+  }
+
+  void drift_borders() {
+    if (!halo.active()) return;
+    const Int3& owned = model.layout().owned();
+    for (std::int64_t k = 0; k < owned[2]; ++k)
+      for (std::int64_t j = 0; j < owned[1]; ++j)
+        if (touches_border(j, k)) drift(j, k);
   }
 };
 

@@ -1,4 +1,4 @@
-// The update of one row in an explicit step, compiled for several instruction sets like mechanics/row_kernels.h.
+// The update of one row in an explicit step, compiled for several instruction sets like mechanics/cell_strip.h.
 #pragma once
 
 #include <cstddef>

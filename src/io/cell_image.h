@@ -17,16 +17,22 @@ struct CellImage {
   std::function<double(std::int64_t)> value;
 };
 
-/// Reads .npy (whole numbers or bool, axes [z][y][x]), .vti (values on cells), .mha, .mhd or .nrrd (values of voxels).
-/// Spacing and origin in the file do not count. Errors: InputError without a place.
+/// Reads .npy (axes [z][y][x]), .vti (values on cells), .mha, .mhd or .nrrd (values of voxels): whole numbers or bool,
+/// as materials have. Spacing and origin in the file do not count. Errors: InputError without a place.
 CellImage read_cell_image(const std::filesystem::path& file);
+
+/// The same with whole numbers or fractions, as factors have.
+CellImage read_factor_image(const std::filesystem::path& file);
 
 /// Sets body.cells by body.image_materials, and body.size if it is unset. Errors: InputError at the image, its
 /// materials or the size.
 void set_cells(const CellImage& image, model::Definition& definition);
 
-/// The definition with cells that a program gave in `directory`/cells.vti, so that its resolved input names them
-/// (collective). Errors: RunError when the file cannot be written.
+/// Sets body.factors; body.size must be known. Errors: InputError at body.factor.
+void set_factors(const CellImage& image, model::Definition& definition);
+
+/// The definition with cells and factors that a program gave in `directory`/cells.vti and factors.vti, so that its
+/// resolved input names them (collective). Errors: RunError when the file cannot be written.
 model::Definition with_cells_in_file(const Communicator& communicator, model::Definition definition,
                                      const std::filesystem::path& directory);
 

@@ -7,7 +7,7 @@
 #include <vtkObject.h>
 #include <vtkPointData.h>
 #include <vtkSmartPointer.h>
-#include <vtkUnsignedCharArray.h>
+#include <vtkUnsignedShortArray.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLImageDataReader.h>
 #include <vtkXMLPImageDataReader.h>
@@ -82,7 +82,7 @@ std::vector<SampleFile> list_samples(const std::filesystem::path& directory) {
 FieldReader::FieldReader(const std::filesystem::path& path) : path_(path) {
   const bool parallel = path.extension() == ".pvti";
   image_ = parallel ? read<vtkXMLPImageDataReader>(path) : read<vtkXMLImageDataReader>(path);
-  const bool usable = image_ && vtkUnsignedCharArray::SafeDownCast(image_->GetCellData()->GetArray("material"));
+  const bool usable = image_ && vtkUnsignedShortArray::SafeDownCast(image_->GetCellData()->GetArray("material"));
   if (!usable) throw InputError(fmt::format("{} is no sample of fields that can be read", path.native()));
 }
 
@@ -105,8 +105,8 @@ std::vector<FieldInfo> FieldReader::fields() const {
   return fields;
 }
 
-std::span<const std::uint8_t> FieldReader::material() const {
-  auto* array = vtkUnsignedCharArray::SafeDownCast(image_->GetCellData()->GetArray("material"));
+std::span<const std::uint16_t> FieldReader::material() const {
+  auto* array = vtkUnsignedShortArray::SafeDownCast(image_->GetCellData()->GetArray("material"));
   return {array->GetPointer(0), static_cast<std::size_t>(array->GetNumberOfTuples())};
 }
 

@@ -43,7 +43,7 @@ class FieldReader {
   std::vector<FieldInfo> fields() const;  ///< all but the material
 
   /// Material index of every cell, 0 = empty.
-  std::span<const std::uint8_t> material() const;
+  std::span<const std::uint16_t> material() const;
 
   /// Values of a field at points (or cells, for a field on cells): all components of the first, then of the second ...
   /// Throws InputError when the sample has no such field.

@@ -12,6 +12,7 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkUnsignedCharArray.h>
+#include <vtkUnsignedShortArray.h>
 #include <vtkXMLDataElement.h>
 #include <vtkXMLImageDataWriter.h>
 #include <vtkZLibDataCompressor.h>
@@ -56,14 +57,14 @@ vtkSmartPointer<vtkDoubleArray> make_array(const lattice::Layout& layout, const 
 }
 
 // `value(material)` of every cell of the piece.
-template <class F>
-vtkSmartPointer<vtkUnsignedCharArray> make_cell_bytes(const char* name, const model::SpringLattice& lattice,
-                                                      const Box& box, F&& value) {
-  auto array = vtkSmartPointer<vtkUnsignedCharArray>::New();
+template <class Array, class F>
+vtkSmartPointer<Array> make_cell_array(const char* name, const model::SpringLattice& lattice, const Box& box,
+                                       F&& value) {
+  auto array = vtkSmartPointer<Array>::New();
   array->SetName(name);
   array->SetNumberOfTuples(box.count());
-  unsigned char* to = array->GetPointer(0);
-  const std::uint8_t* cell = lattice.cell.component(0);
+  auto* to = array->GetPointer(0);
+  const std::uint16_t* cell = lattice.cell.component(0);
   lattice::for_each(lattice.layout, box.lo, box.hi, [&](auto, auto, auto, auto n) { *to++ = value(cell[n]); });
   return array;
 }
@@ -74,7 +75,8 @@ vtkSmartPointer<vtkXMLDataElement> declare(const char* name, vtkFieldData* data)
   for (int i = 0; i < data->GetNumberOfArrays(); ++i) {
     vtkDataArray* array = data->GetArray(i);
     auto item = element("PDataArray");
-    item->SetAttribute("type", array->GetDataType() == VTK_DOUBLE ? "Float64" : "UInt8");
+    const int type = array->GetDataType();
+    item->SetAttribute("type", type == VTK_DOUBLE ? "Float64" : type == VTK_UNSIGNED_SHORT ? "UInt16" : "UInt8");
     item->SetAttribute("Name", array->GetName());
     item->SetIntAttribute("NumberOfComponents", array->GetNumberOfComponents());
     for (int c = 0; array->HasAComponentName() && c < array->GetNumberOfComponents(); ++c)
@@ -124,11 +126,11 @@ vtkSmartPointer<vtkImageData> make_image(const model::Model& model, std::span<co
       image->GetPointData()->AddArray(array);
   }
   image->GetCellData()->AddArray(
-      make_cell_bytes("material", model.lattice, cells, [](std::uint8_t material) { return material; }));
+      make_cell_array<vtkUnsignedShortArray>("material", model.lattice, cells, [](std::uint16_t m) { return m; }));
   if (mark_empty)
-    image->GetCellData()->AddArray(make_cell_bytes(
+    image->GetCellData()->AddArray(make_cell_array<vtkUnsignedCharArray>(
         vtkDataSetAttributes::GhostArrayName(), model.lattice, cells,
-        [](std::uint8_t material) -> unsigned char { return material == 0 ? vtkDataSetAttributes::HIDDENCELL : 0; }));
+        [](std::uint16_t material) -> unsigned char { return material == 0 ? vtkDataSetAttributes::HIDDENCELL : 0; }));
 
   vtkNew<vtkDoubleArray> time_value;
   time_value->SetName("TimeValue");

@@ -38,6 +38,8 @@ model::Definition load_files(model::Definition definition) {
   model::check(definition);
   if (const std::string& image = definition.body.image; !image.empty())
     set_cells(load(definition, "body.image", image, read_cell_image), definition);
+  if (const std::string& factor = definition.body.factor; !factor.empty())
+    set_factors(load(definition, "body.factor", factor, read_factor_image), definition);
   for (std::size_t r = 0; r < definition.regions.size(); ++r) {
     model::RegionDefinition& region = definition.regions[r];
     if (region.shape != model::RegionDefinition::Shape::stl) continue;

@@ -52,16 +52,20 @@ std::string field(const Header& header, const std::string& key, const std::strin
 
 }  // namespace
 
-NpyArray read_npy(const std::filesystem::path& file) {
+NpyArray read_npy(const std::filesystem::path& file, bool fractions) {
   const Header header = read_header(file);
 
   const std::string type = field(header, "descr", "'[^']*'|\\[[^\\]]*\\]");
   static const std::map<std::string, std::pair<int, int>> types{
       {"b1", {VTK_UNSIGNED_CHAR, 1}}, {"i1", {VTK_SIGNED_CHAR, 1}},    {"u1", {VTK_UNSIGNED_CHAR, 1}},
       {"i2", {VTK_SHORT, 2}},         {"u2", {VTK_UNSIGNED_SHORT, 2}}, {"i4", {VTK_INT, 4}},
-      {"u4", {VTK_UNSIGNED_INT, 4}},  {"i8", {VTK_LONG_LONG, 8}},      {"u8", {VTK_UNSIGNED_LONG_LONG, 8}}};
+      {"u4", {VTK_UNSIGNED_INT, 4}},  {"i8", {VTK_LONG_LONG, 8}},      {"u8", {VTK_UNSIGNED_LONG_LONG, 8}},
+      {"f4", {VTK_FLOAT, 4}},         {"f8", {VTK_DOUBLE, 8}}};
   const auto known = type.size() == 5 ? types.find(type.substr(2, 2)) : types.end();
-  if (known == types.end())
+  const bool is_fraction = known != types.end() && known->first[0] == 'f';
+  if (fractions && known == types.end())
+    throw InputError(fmt::format("holds values of the type {}; convert it with astype(\"float32\")", type));
+  if (known == types.end() || (is_fraction && !fractions))
     throw InputError(
         fmt::format("holds values of the type {}, not whole numbers; convert it with astype(\"uint8\")", type));
   const auto [scalar_type, bytes] = known->second;

@@ -1,4 +1,4 @@
-// Integer arrays in NumPy's file format.
+// Arrays of numbers in NumPy's file format.
 #pragma once
 
 #include <vtkImageData.h>
@@ -14,7 +14,8 @@ struct NpyArray {
   bool fortran_order = false;  ///< the image's x axis is the array's first axis, not its last
 };
 
-/// Errors: InputError without a place for anything but three axes of whole numbers or bool.
-NpyArray read_npy(const std::filesystem::path& file);
+/// Errors: InputError without a place for anything but three axes of whole numbers, bool or, if `fractions`, floating
+/// point.
+NpyArray read_npy(const std::filesystem::path& file, bool fractions);
 
 }  // namespace koshi::io

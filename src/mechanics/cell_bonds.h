@@ -36,17 +36,19 @@ struct Stiffness {
   double kn, kt;  ///< [N/m]
 };
 
-/// The cell's part of a bond whose first node is `node`; `material` is that of the cell. Shared springs: the material's
-/// stiffness over the number of cells in the bulk. Plain springs: the bond's stiffness over its solid cells.
-inline Stiffness cell_part(const model::SpringLattice& body, int slot, std::int64_t node, std::uint8_t material) {
-  const int family = lattice::slots[slot].family;
+/// The cell's part of a bond whose first node is `node`; `cell` is the index of its lowest corner. Shared springs: the
+/// material's stiffness over the number of cells in the bulk, times the cell's factor. Plain springs: the bond's
+/// stiffness over its solid cells.
+inline Stiffness cell_part(const model::SpringLattice& body, int slot, std::int64_t node, std::int64_t cell) {
   if (body.sharing == material::Sharing::shared) {
-    const double parts = lattice::cells_per_bond[family];
-    return {body.springs[material].kn[family] / parts, body.springs[material].kt[family] / parts};
+    const int family = lattice::slots[slot].family;
+    const material::Springs& springs = body.springs[body.cell.component(0)[cell]];
+    const double share = body.factor_of(cell) / lattice::cells_per_bond[family];
+    return {share * springs.kn[family], share * springs.kt[family]};
   }
-  const model::BondClass& bond = body.classes[body.bond.component(slot)[node]];
-  if (bond.solid_cells == 0) return {0, 0};
-  return {bond.kn / bond.solid_cells, bond.kt / bond.solid_cells};
+  const double cells = body.bond_cells.component(slot)[node];
+  if (cells == 0) return {0, 0};
+  return {body.bond.component(2 * slot)[node] / cells, body.bond.component(2 * slot + 1)[node] / cells};
 }
 
 }  // namespace koshi::mechanics

@@ -1,16 +1,16 @@
 #include <type_traits>
 
 #include "base/instruction_set.h"
-#include "mechanics/cell_rows.h"
+#include "mechanics/cell_strip.h"
 #include "mechanics/relax_rows.h"
 
 namespace koshi::mechanics {
 
-#define KOSHI_DECLARE(isa)                              \
-  namespace isa {                                       \
-  extern const CellKernels<float> cell_kernels_float;   \
-  extern const CellKernels<double> cell_kernels_double; \
-  extern const RelaxKernels relax_kernels;              \
+#define KOSHI_DECLARE(isa)                                \
+  namespace isa {                                         \
+  extern const StripKernels<float> strip_kernels_float;   \
+  extern const StripKernels<double> strip_kernels_double; \
+  extern const RelaxKernels relax_kernels;                \
   }
 KOSHI_DECLARE(baseline)
 #if defined(KOSHI_X86_KERNELS)
@@ -21,8 +21,8 @@ KOSHI_DECLARE(avx512)
 namespace {
 
 struct Kernels {
-  const CellKernels<float>& single;
-  const CellKernels<double>& twofold;
+  const StripKernels<float>& single;
+  const StripKernels<double>& twofold;
   const RelaxKernels& relax;
 };
 
@@ -30,11 +30,11 @@ const Kernels& kernels() {
   static const Kernels chosen = []() -> Kernels {
 #if defined(KOSHI_X86_KERNELS)
     if (instruction_set() == InstructionSet::avx512)
-      return {avx512::cell_kernels_float, avx512::cell_kernels_double, avx512::relax_kernels};
+      return {avx512::strip_kernels_float, avx512::strip_kernels_double, avx512::relax_kernels};
     if (instruction_set() == InstructionSet::avx2)
-      return {avx2::cell_kernels_float, avx2::cell_kernels_double, avx2::relax_kernels};
+      return {avx2::strip_kernels_float, avx2::strip_kernels_double, avx2::relax_kernels};
 #endif
-    return {baseline::cell_kernels_float, baseline::cell_kernels_double, baseline::relax_kernels};
+    return {baseline::strip_kernels_float, baseline::strip_kernels_double, baseline::relax_kernels};
   }();
   return chosen;
 }
@@ -42,15 +42,15 @@ const Kernels& kernels() {
 }  // namespace
 
 template <class T>
-const CellKernels<T>& cell_kernels() {
+const StripKernels<T>& strip_kernels() {
   if constexpr (std::is_same_v<T, double>)
     return kernels().twofold;
   else
     return kernels().single;
 }
 
-template const CellKernels<double>& cell_kernels<double>();
-template const CellKernels<float>& cell_kernels<float>();
+template const StripKernels<float>& strip_kernels<float>();
+template const StripKernels<double>& strip_kernels<double>();
 
 const RelaxKernels& relax_kernels() { return kernels().relax; }
 

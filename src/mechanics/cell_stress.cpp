@@ -15,7 +15,6 @@ constexpr std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2
 CellState cell_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
   const lattice::Layout& layout = body.layout;
   const double d = body.grid.d;
-  const std::uint8_t material = body.cell.component(0)[cell];
   const bool rotational = body.components() == 6;
   std::array<std::int64_t, 8> node;
   std::array<Vec3, 8> displacement, rotation{};
@@ -39,7 +38,7 @@ CellState cell_state(const model::SpringLattice& body, const lattice::Field<doub
   // Virial of the cell's bonds.
   const double volume = d * d * d;
   for (const CellBond& bond : cell_bonds) {
-    const auto [kn, kt] = cell_part(body, bond.slot, node[bond.a], material);
+    const auto [kn, kt] = cell_part(body, bond.slot, node[bond.a], cell);
     const auto& s = lattice::slots[bond.slot].s;
     const Vec3 D = -d * Vec3{static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])};
     const Vec3 w = rotational ? 0.5 * (rotation[bond.a] + rotation[bond.b]) : state.rotation;
@@ -51,7 +50,8 @@ CellState cell_state(const model::SpringLattice& body, const lattice::Field<doub
       state.stress[v] += 0.5 * (D[i] * F[j] + D[j] * F[i]) / volume;
     }
   }
-  const double pressure = body.springs[material].kappa * (state.strain[0] + state.strain[1] + state.strain[2]);
+  const double kappa = body.factor_of(cell) * body.springs[body.cell.component(0)[cell]].kappa;
+  const double pressure = kappa * (state.strain[0] + state.strain[1] + state.strain[2]);
   for (int v = 0; v < 3; ++v) {
     state.stress[v] += pressure;
     state.energy += 0.5 * pressure * state.strain[v];

@@ -1,66 +1,73 @@
-// Internal forces of the lattice, gathered row by row: every node sums over its own bonds and cells in a fixed order
-// and writes only itself, so results do not depend on the partition among ranks.
+// Internal forces of the lattice: the one operator of motion, equilibrium, energies and reactions.
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include "koshi/spring_lattice.h"
-#include "mechanics/row_kernels.h"
+#include "mechanics/cell_sweep.h"
+#include "mechanics/plain_forces.h"
 
 namespace koshi::mechanics {
 
-/// F = -K u for the springs of one lattice, in precision T. A node with the same material in its eight cells is served
-/// by a stencil with constant coefficients, as is one in a flat face across x, where a row would end with a short
-/// vector; the others by their bonds and cells one by one. The lattice must outlive it.
-template <class T>
+/// F = -K u for the springs of one lattice, which must outlive it. Shared springs go cell by cell, each with its own
+/// material and factor; plain springs through the plain kernel. A node's force is summed in the same order whatever
+/// rows are asked for, so its bits do not depend on the partition among ranks.
+///
+/// The material of a cell and its factor are read from the lattice every time: they may change between two calls, at no
+/// cost but the change itself. The springs of the materials are read once, and so are the factors of plain springs.
 class ForceKernel {
  public:
   explicit ForceKernel(const model::SpringLattice& lattice);
 
-  /// Forces [N] and moments [N m] of row (j, k), component by component, pointers to node i = 0; valid until the next
-  /// call. Ghosts of `u` must be up to date.
-  T* const* row(const lattice::Field<T>& u, std::int64_t j, std::int64_t k);
+  /// Calls use(j, k, force) for every one of the given rows of owned nodes: forces [N] and moments [N m] by component,
+  /// pointers to node i = 0, valid until the next call; `use` may change them. Ghosts of `u` must be up to date. Calls
+  /// release(j, k) for every one of these rows when the force on none of them needs its `u` any more: it may change.
+  template <class Use, class Release>
+  void for_each_row(const lattice::Field<double>& u, const Rows& rows, Use&& use, Release&& release) {
+    using U = std::remove_reference_t<Use>;
+    using R = std::remove_reference_t<Release>;
+    sweep(u, rows,
+          {&use, &release,
+           [](void* f, std::int64_t j, std::int64_t k, double* const* force) { (*static_cast<U*>(f))(j, k, force); },
+           [](void* f, std::int64_t j, std::int64_t k) { (*static_cast<R*>(f))(j, k); }});
+  }
+  /// The same for all owned rows, without release.
+  template <class Use>
+  void for_each_row(const lattice::Field<double>& u, Use&& use) {
+    for_each_row(u, all_rows(), use, [](std::int64_t, std::int64_t) {});
+  }
 
   /// force = -K u on all owned nodes; exchanges the ghosts of u on the way (collective).
-  void apply(lattice::Field<T>& u, lattice::Field<T>& force);
+  void apply(lattice::Field<double>& u, lattice::Field<double>& force);
 
+  Rows all_rows() const { return {0, lattice_.layout.owned()[1], 0, lattice_.layout.owned()[2]}; }
   const model::SpringLattice& lattice() const { return lattice_; }
   int components() const { return components_; }
 
  private:
-  enum class Kind : std::uint8_t {
-    empty,       // no material around
-    uniform,     // one material all around
-    face_above,  // one node in a flat face across x, one material above it or below it
-    face_below,
-    bonds  // anything else
+  /// References to the functions of for_each_row().
+  struct Callbacks {
+    void *use, *release;
+    void (*call_use)(void*, std::int64_t j, std::int64_t k, double* const* force);
+    void (*call_release)(void*, std::int64_t j, std::int64_t k);
   };
-  /// Nodes first <= i < last of a row.
-  struct Segment {
-    std::int32_t first, last;
-    Kind kind;
-    std::uint8_t material;
-  };
-  Kind kind_of(std::int64_t node) const;
-  void make_tables();
-  void make_segments();
-  void poison_owned(lattice::Field<T>& force) const;
-  void write_row(const lattice::Field<T>& u, std::int64_t j, std::int64_t k, lattice::Field<T>& force);
+  void sweep(const lattice::Field<double>& u, const Rows& rows, const Callbacks& callbacks);
+  void plain_sweep(const lattice::Field<double>& u, const Rows& rows, const Callbacks& callbacks);
+  const double* constants(std::int64_t i, std::int64_t j, std::int64_t k, std::int64_t cells, double* to);
 
   const model::SpringLattice& lattice_;
   int components_;
-  bool volumetric_;
-  std::vector<Segment> segments_;
-  std::vector<std::int64_t> row_segments_;            ///< first segment of each row, x fastest rows j + owned_y k
-  std::vector<Stencil<T>> stencils_;                  ///< by material
-  std::vector<std::array<FaceStencil<T>, 2>> faces_;  ///< by material, above and below
-  std::vector<T> kt_, kb_, volumetric_table_, fit_table_;
-  Tables<T> tables_{};
-  lattice::Field<T> work_;  ///< one row per component
-  Scratch<T> scratch_;
-  std::array<T*, 6> force_;
+  CellSweep<double> sweep_;
+  std::vector<double> table_;  ///< constants by material
+  /// What the constants of the strip at hand were made from.
+  std::array<std::uint16_t, strip_cells> materials_{};
+  std::array<float, strip_cells> factors_{};
+  std::unique_ptr<PlainForces> plain_;          ///< of plain springs
+  std::vector<std::vector<double>> plain_row_;  ///< by component
 };
 
 }  // namespace koshi::mechanics

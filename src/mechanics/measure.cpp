@@ -12,7 +12,7 @@ namespace koshi::mechanics {
 using Quantity = model::ProbeDefinition::Quantity;
 using Reduce = model::ProbeDefinition::Reduce;
 
-Meter::Meter(const model::Model& model, ForceKernel<double>& kernel)
+Meter::Meter(const model::Model& model, ForceKernel& kernel)
     : model_(model),
       kernel_(kernel),
       loads_(model),
@@ -27,13 +27,11 @@ void Meter::for_each_row(model::State& state, F&& f) {
   std::array<double*, 6> external_row{};
   for (int c = 0; c < 6; ++c) external[c].resize(static_cast<std::size_t>(layout.owned()[0]));
   for (int c = 0; c < 6; ++c) external_row[c] = external[c].data();
-  for (std::int64_t k = 0; k < layout.owned()[2]; ++k)
-    for (std::int64_t j = 0; j < layout.owned()[1]; ++j) {
-      double* const* internal = kernel_.row(state.displacement, j, k);
-      for (auto& e : external) std::fill(e.begin(), e.end(), 0);
-      loads_.add(j, k, external_row.data());
-      f(j, k, internal, external_row.data());
-    }
+  kernel_.for_each_row(state.displacement, [&](std::int64_t j, std::int64_t k, double* const* internal) {
+    for (auto& e : external) std::fill(e.begin(), e.end(), 0);
+    loads_.add(j, k, external_row.data());
+    f(j, k, internal, external_row.data());
+  });
 }
 
 namespace {

@@ -34,7 +34,7 @@ struct Measurement {
 /// they belong to the state's own time).
 class Meter {
  public:
-  Meter(const model::Model& model, ForceKernel<double>& kernel);
+  Meter(const model::Model& model, ForceKernel& kernel);
   Measurement measure(model::State& state, double dt);
   Balance balance(model::State& state, double dt);
   /// Reactions [N], [N m] on prescribed components, zero elsewhere (collective).
@@ -48,7 +48,7 @@ class Meter {
                          const std::vector<std::array<double, 6>>& node_reactions) const;
 
   const model::Model& model_;
-  ForceKernel<double>& kernel_;
+  ForceKernel& kernel_;
   LoadRows loads_;
   RowIndex motion_rows_;
 };

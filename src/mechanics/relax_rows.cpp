@@ -1,23 +1,23 @@
 // Compiled once per instruction set with KOSHI_ISA set to its name.
 #include "mechanics/relax_rows.h"
 
-#include "mechanics/vector64.h"
+#include "mechanics/vector.h"
 
 namespace koshi::mechanics::KOSHI_ISA {
 namespace {
 
 using V = Vector<float>::type;
 
-// z = B r for the nodes of group g.
+// z = B r for a vector of nodes from i on.
 template <int components>
-KOSHI_INLINE void apply_blocks(const RelaxRow& row, std::int64_t g, const V (&r)[6], V (&z)[6]) {
-  const std::int64_t block = row.block[g];
+KOSHI_INLINE void apply_blocks(const RelaxRow& row, std::int64_t i, const V (&r)[6], V (&z)[6]) {
+  const std::int64_t block = row.block[i / block_width];
   if (block < 0) {
     const float* const inverse = row.uniform + 2 * ~block;
     for (int a = 0; a < components; ++a) z[a] = inverse[a / 3] * r[a];
     return;
   }
-  const float* entry = row.blocks + components * (components + 1) / 2 * block_width * block;
+  const float* entry = row.blocks + components * (components + 1) / 2 * block_width * block + i % block_width;
   for (int a = 0; a < components; ++a) {
     z[a] = V{};
     for (int b = 0; b <= a; ++b, entry += block_width) {
@@ -30,14 +30,11 @@ KOSHI_INLINE void apply_blocks(const RelaxRow& row, std::int64_t g, const V (&r)
 
 template <int components>
 void relax_components(const RelaxRow& row, float p, float q, float c) {
-  for (std::int64_t i = 0; i < row.count; i += block_width) {
+  for (std::int64_t i = 0; i < row.count; i += width<float>) {
     V r[6], z[6];
-    for (int a = 0; a < components; ++a) {
-      float* const force = row.force + a * row.force_pitch + i;
-      r[a] = load(row.b + a * row.pitch + i) + load(force);
-      store(force, V{});
-    }
-    apply_blocks<components>(row, i / block_width, r, z);
+    for (int a = 0; a < components; ++a)
+      r[a] = load(row.b + a * row.pitch + i) + load(row.force + a * row.force_pitch + i);
+    apply_blocks<components>(row, i, r, z);
     for (int a = 0; a < components; ++a) {
       const std::int64_t at = a * row.pitch + i;
       store(row.y + at, p * load(row.x + at) + q * load(row.y + at) + c * z[a]);
@@ -47,10 +44,10 @@ void relax_components(const RelaxRow& row, float p, float q, float c) {
 
 template <int components>
 void relax_zero_components(const RelaxRow& row, float c) {
-  for (std::int64_t i = 0; i < row.count; i += block_width) {
+  for (std::int64_t i = 0; i < row.count; i += width<float>) {
     V r[6], z[6];
     for (int a = 0; a < components; ++a) r[a] = load(row.b + a * row.pitch + i);
-    apply_blocks<components>(row, i / block_width, r, z);
+    apply_blocks<components>(row, i, r, z);
     for (int a = 0; a < components; ++a) store(row.y + a * row.pitch + i, c * z[a]);
   }
 }
@@ -65,11 +62,8 @@ void relax_zero(const RelaxRow& row, int components, float c) {
 
 void residual(const RelaxRow& row, int components) {
   for (int a = 0; a < components; ++a)
-    for (std::int64_t i = 0; i < row.count; i += block_width) {
-      float* const force = row.force + a * row.force_pitch + i;
-      store(row.y + a * row.pitch + i, load(row.b + a * row.pitch + i) + load(force));
-      store(force, V{});
-    }
+    for (std::int64_t i = 0; i < row.count; i += width<float>)
+      store(row.y + a * row.pitch + i, load(row.b + a * row.pitch + i) + load(row.force + a * row.force_pitch + i));
 }
 
 void combine(float* to, const float* const* from, const float* weight, int rows, std::int64_t count) {

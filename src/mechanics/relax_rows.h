@@ -1,5 +1,5 @@
 // The other inner loops of a multigrid level, on rows of nodes in single precision: relaxation with node blocks,
-// residual, transfer between levels. Compiled per instruction set like cell_rows.h.
+// residual, transfer between levels. Compiled per instruction set like cell_strip.h.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ struct RelaxRow {
   const float* x;
   float* y;
   std::ptrdiff_t pitch;
-  float* force;  ///< -K x; set to zero after use
+  const float* force;  ///< -K x
   std::ptrdiff_t force_pitch;
   const std::int32_t* block;
   const float* uniform;

@@ -20,7 +20,7 @@ double start_value(std::uint64_t node, int component) {
 
 }  // namespace
 
-StableStep stable_step(const model::Model& model, ForceKernel<double>& kernel) {
+StableStep stable_step(const model::Model& model, ForceKernel& kernel) {
   const lattice::Layout& layout = model.layout();
   const lattice::Grid& grid = model.lattice.grid;
   double fastest = 0;

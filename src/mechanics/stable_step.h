@@ -17,6 +17,6 @@ struct StableStep {
 ///
 /// omega_max by power iteration on the mass-scaled stiffness (collective). The estimate comes from below, within about
 /// a percent: use it with a safety factor. Equal for any number of ranks.
-StableStep stable_step(const model::Model& model, ForceKernel<double>& kernel);
+StableStep stable_step(const model::Model& model, ForceKernel& kernel);
 
 }  // namespace koshi::mechanics

@@ -54,10 +54,10 @@ void check_lattice(const Checker& check) {
 void check_materials(const Checker& check) {
   const auto& materials = check.definition.materials;
   if (materials.empty()) check.fail("material", "there is no material; define one such as [material.rock]");
-  // Cells name their material by a byte, 0 stands for none.
+  // Cells name their material by two bytes, 0 stands for none.
   constexpr std::size_t most = SpringLattice::max_materials;
   if (materials.size() > most)
-    check.fail("material", fmt::format("{} materials; at most {} fit in a byte per cell", materials.size(), most));
+    check.fail("material", fmt::format("{} materials; at most {} fit in two bytes per cell", materials.size(), most));
   std::vector<std::string> names;
   for (const MaterialDefinition& material : materials) {
     const std::string path = "material." + material.name;
@@ -81,18 +81,33 @@ void check_material_name(const Checker& check, const std::string& path, const st
   check.fail(path, fmt::format("there is no material \"{}\"; {}", material, suggestion(material, names)));
 }
 
+// Formats of files with a value for each cell.
+void check_cell_file(const Checker& check, const std::string& path, const std::string& what, const std::string& file) {
+  const std::vector<std::string> formats{".npy", ".vti", ".mha", ".mhd", ".nrrd"};
+  if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return file.ends_with(suffix); }))
+    check.fail(path, fmt::format("{} \"{}\" is in no known format; known: {}", what, file, quoted_list(formats)));
+}
+
+void check_factor(const Checker& check) {
+  const Definition& definition = check.definition;
+  if (definition.body.factor.empty() && definition.body.factors.empty()) return;
+  if (definition.lattice.springs == material::Sharing::plain)
+    check.fail("body.factor",
+               "cells have no springs of their own to multiply with lattice.springs = \"plain\"; take "
+               "\"shared\"");
+  if (!definition.body.factor.empty()) check_cell_file(check, "body.factor", "the file", definition.body.factor);
+}
+
 void check_box_of_cells(const Checker& check) {
   const BodyDefinition& body = check.definition.body;
   check.within(ranges::position, "body.origin", body.origin);
+  check_factor(check);
   if (body.image.empty()) {
     make_grid(check.definition);
     if (body.cells.empty()) check_material_name(check, "body.material", body.material);
     return;
   }
-  const std::vector<std::string> formats{".npy", ".vti", ".mha", ".mhd", ".nrrd"};
-  if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return body.image.ends_with(suffix); }))
-    check.fail("body.image",
-               fmt::format("the image \"{}\" is in no known format; known: {}", body.image, quoted_list(formats)));
+  check_cell_file(check, "body.image", "the image", body.image);
   if (body.image_materials.empty())
     check.fail("body", "an image needs materials, such as materials = { 0 = \"void\", 1 = \"rock\" }");
   for (const auto& [value, material] : body.image_materials)

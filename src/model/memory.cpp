@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -44,28 +45,35 @@ double solver_bytes(const lattice::Grid& grid, int components, int ranks) {
 // inverse blocks of each distinct group of 16 nodes that is not uniform (node_blocks.h). How many are distinct is told
 // from a sample of rows.
 double mixed_bytes(const Definition& definition, const lattice::Grid& grid, int components) {
-  if (definition.body.cells.empty() && definition.regions.empty()) return 0;
+  if (definition.body.cells.empty() && definition.body.factors.empty() && definition.regions.empty()) return 0;
   constexpr int rows_sampled = 400;
   constexpr std::int64_t group_nodes = 16;
   const auto material_of = material_of_cells(definition, grid);
+  const auto factor_of = factor_of_cells(definition, grid);
+  // A number that tells cells of different material or factor apart.
+  const auto kind_of = [&](const Int3& cell) -> char32_t {
+    const char32_t material = material_of(cell);
+    if (!factor_of || material == 0) return material;
+    return material ^ std::bit_cast<std::uint32_t>(factor_of(cell)) * 2654435761u;
+  };
   const Int3& n = grid.cells;
   const std::int64_t groups_per_row = (n[0] + group_nodes) / group_nodes;
-  std::set<std::string> rows, groups;
+  std::set<std::u32string> rows, groups;
   std::minstd_rand random;  // the same sample every time
   for (int sample = 0; sample < rows_sampled; ++sample) {
     const std::int64_t j = static_cast<std::int64_t>(random()) % n[1], k = static_cast<std::int64_t>(random()) % n[2];
-    std::array<std::string, 4> around;  // the rows of cells around a row of nodes
+    std::array<std::u32string, 4> around;  // the rows of cells around a row of nodes
     for (std::size_t r = 0; r < around.size(); ++r)
       for (std::int64_t i = 0; i < n[0]; ++i)
-        around[r] += static_cast<char>(material_of(
-            {i, std::min<std::int64_t>(j + (r & 1), n[1] - 1), std::min<std::int64_t>(k + (r >> 1), n[2] - 1)}));
+        around[r] +=
+            kind_of({i, std::min<std::int64_t>(j + (r & 1), n[1] - 1), std::min<std::int64_t>(k + (r >> 1), n[2] - 1)});
     rows.insert(around[0]);
     for (std::int64_t g = 0; g < groups_per_row; ++g) {
       const auto first = static_cast<std::size_t>(std::max<std::int64_t>(g * group_nodes - 1, 0));
-      std::string group;
-      for (const std::string& row : around) group += row.substr(first, group_nodes + 1);
+      std::u32string group;
+      for (const std::u32string& row : around) group += row.substr(first, group_nodes + 1);
       if (group.find_first_not_of(group[0]) == std::string::npos) continue;
-      groups.insert(static_cast<char>(g) + group);
+      groups.insert(static_cast<char32_t>(g) + group);
     }
   }
   // A body of a few kinds of rows repeats them; up to a dozen say nothing of how many more there are.
@@ -113,8 +121,11 @@ double predicted_memory(const Definition& definition, int ranks) {
   const int components = rotational ? 6 : 3, inertias = rotational ? 2 : 1;
   const double count = static_cast<double>(nodes[0] * nodes[1]) * static_cast<double>(nodes[2]);
 
-  // The cell and its bonds; inertia; displacement and velocity. Explicit runs keep the inverse inertia as well.
-  double bytes = 1 + lattice::slot_count + 8 * inertias + 16 * components;
+  // The cell's material and its factor, or with plain springs the bonds; inertia; displacement and velocity. Explicit
+  // runs keep the inverse inertia as well.
+  const bool plain = definition.lattice.springs == material::Sharing::plain;
+  const bool factors = !definition.body.factors.empty();
+  double bytes = 2 + (factors ? 4 : 0) + (plain ? 17 * lattice::slot_count : 0) + 8 * inertias + 16 * components;
   const bool orients = std::count(definition.output.fields.begin(), definition.output.fields.end(), "orientation") != 0;
   const double sample = sample_bytes(definition) * count;
   if (statics) {
@@ -123,11 +134,13 @@ double predicted_memory(const Definition& definition, int ranks) {
     return bytes * static_cast<double>(whole.size()) + std::max(solver, sample);
   }
   bytes += 8 * inertias + (orients ? 32 : 0);
-  // Boxes with ghosts and padding; and every rank keeps the materials of all cells where they come from an image.
+  // Boxes with ghosts and padding; and every rank keeps the materials and factors of all cells where they come from
+  // files.
   const lattice::Partition partition = lattice::make_partition(grid, ranks);
   double size = 0;
   for (int rank = 0; rank < ranks; ++rank) size += static_cast<double>(partition.layout(rank).size());
-  const double image = static_cast<double>(definition.body.cells.size());
+  const double image = 2.0 * static_cast<double>(definition.body.cells.size()) +
+                       4.0 * static_cast<double>(definition.body.factors.size());
   return image * ranks + bytes * size + sample;
 }
 

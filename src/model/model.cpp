@@ -52,13 +52,13 @@ lattice::Field<double> make_inertia(const Model& model) {
   const lattice::Layout& layout = model.layout();
   const bool rotational = model.components() == 6;
   lattice::Field<double> inertia(layout, rotational ? 2 : 1);
-  const std::uint8_t* cell = model.lattice.cell.component(0);
+  const std::uint16_t* cell = model.lattice.cell.component(0);
   const double eighth = std::pow(model.lattice.grid.d, 3) / 8;
   lattice::for_each_owned(layout, [&](auto, auto, auto, auto n) {
     double mass = 0;
     int cells = 0;
     for (int corner = 0; corner < 8; ++corner) {
-      const std::uint8_t m = cell[n - layout.offset({corner & 1, corner >> 1 & 1, corner >> 2})];
+      const std::uint16_t m = cell[n - layout.offset({corner & 1, corner >> 1 & 1, corner >> 2})];
       if (m == 0) continue;
       ++cells;
       mass += model.materials[m].density * eighth;
@@ -83,24 +83,23 @@ Model make_model(const Definition& definition, const Communicator& communicator)
 
   Model model{definition, communicator, {}, make_cells(grid, partition, halo, material_of_cells(definition, grid)),
               {},         {},           {}, {}};
+  if (const auto factor_of = factor_of_cells(definition, grid)) make_factors(model.lattice, factor_of);
   model.materials.resize(1);
   for (const MaterialDefinition& m : definition.materials) model.materials.push_back(m.elastic);
   std::array<std::int64_t, 2> counts{};
-  const std::uint8_t* cell = model.lattice.cell.component(0);
+  const std::uint16_t* cell = model.lattice.cell.component(0);
   lattice::for_each_owned(model.layout(), [&](auto, auto, auto, auto n) { counts[0] += cell[n] != 0; });
   model.cell_count = communicator.sum(counts[0]);
   if (model.cell_count == 0)
     throw InputError(definition.places.find("body"),
                      "the body has no solid cell; give it a material, or make the void smaller");
 
+  std::vector<material::Springs> springs;
   collectively(communicator, [&] {
-    std::vector<material::Springs> springs;
     at_place(definition.places.find("lattice.calibration"),
              [&] { springs = make_springs(definition, model.lattice, model.volume()); });
-    at_place(definition.places.find("body"), [&] {
-      make_bonds(model.lattice, definition.lattice.springs, definition.lattice.kinematics, std::move(springs));
-    });
   });
+  set_springs(model.lattice, definition.lattice.springs, definition.lattice.kinematics, std::move(springs));
   model.inertia = make_inertia(model);
   lattice::for_each_owned(model.layout(),
                           [&](auto, auto, auto, auto n) { counts[1] += model.inertia.component(0)[n] > 0; });

@@ -12,12 +12,12 @@ namespace koshi::model {
 namespace {
 
 // The index of a material that check() has found to be defined.
-std::uint8_t index_of(const Definition& definition, const std::string& name) {
+std::uint16_t index_of(const Definition& definition, const std::string& name) {
   if (name == "void") return 0;
   const auto& materials = definition.materials;
   const auto found = std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == name; });
   assert(found != materials.end());
-  return static_cast<std::uint8_t>(found - materials.begin() + 1);
+  return static_cast<std::uint16_t>(found - materials.begin() + 1);
 }
 
 // Cells are compared by their centres; borders that touch a centre belong to the region, whatever the last bit says.
@@ -89,19 +89,19 @@ lattice::Grid make_grid(const Definition& definition) {
   return grid;
 }
 
-std::function<std::uint8_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid) {
-  const std::vector<std::uint8_t>& image = definition.body.cells;
+std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid) {
+  const std::vector<std::uint16_t>& image = definition.body.cells;
   const Int3 n = grid.cells;
   if (!image.empty() && static_cast<std::int64_t>(image.size()) != n[0] * n[1] * n[2])
     throw InputError(
         definition.places.find("body"),
         fmt::format("the cell materials have {} entries, the body {} x {} x {} cells", image.size(), n[0], n[1], n[2]));
-  for (const std::uint8_t m : image)
+  for (const std::uint16_t m : image)
     if (m > definition.materials.size())
       throw InputError(definition.places.find("body"),
                        fmt::format("cell material {} is not defined; there are {}", m, definition.materials.size()));
-  const std::uint8_t background = image.empty() ? index_of(definition, definition.body.material) : 0;
-  std::vector<std::uint8_t> region_material;
+  const std::uint16_t background = image.empty() ? index_of(definition, definition.body.material) : 0;
+  std::vector<std::uint16_t> region_material;
   for (const RegionDefinition& region : definition.regions)
     region_material.push_back(index_of(definition, region.material));
 
@@ -115,6 +115,25 @@ std::function<std::uint8_t(const Int3&)> material_of_cells(const Definition& def
       if (in) return region_material[r];
     }
     return image.empty() ? background : image[at];
+  };
+}
+
+std::function<float(const Int3&)> factor_of_cells(const Definition& definition, const lattice::Grid& grid) {
+  const std::vector<float>& factors = definition.body.factors;
+  if (factors.empty()) return nullptr;
+  const Int3 n = grid.cells;
+  const Checker check(definition);
+  if (static_cast<std::int64_t>(factors.size()) != n[0] * n[1] * n[2])
+    check.fail("body.factor", fmt::format("there are factors for {} cells, but the body has {} x {} x {}",
+                                          factors.size(), n[0], n[1], n[2]));
+  for (std::size_t at = 0; at < factors.size(); ++at)
+    if (!(factors[at] >= 0 && factors[at] <= 1)) {
+      const auto cell = static_cast<std::int64_t>(at);
+      check.fail("body.factor", fmt::format("the factor of cell ({}, {}, {}) is {:.6g}; factors lie between 0 and 1",
+                                            cell % n[0], cell / n[0] % n[1], cell / (n[0] * n[1]), factors[at]));
+    }
+  return [&factors, n](const Int3& cell) {
+    return factors[static_cast<std::size_t>(cell[0] + n[0] * (cell[1] + n[1] * cell[2]))];
   };
 }
 

@@ -17,6 +17,10 @@ lattice::Grid make_grid(const Definition& definition);
 /// Material index (0 = empty) of a global cell: the body's material or image, then the regions, later ones winning. A
 /// cell belongs to a region when its centre lies inside or on the border. The definition must have passed check() and
 /// outlive the function.
-std::function<std::uint8_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid);
+std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid);
+
+/// Factor of each cell by its global indices; null where the definition gives none. Errors: InputError when there is
+/// not one for each cell, or one outside 0 ... 1. The definition must outlive the function.
+std::function<float(const Int3&)> factor_of_cells(const Definition& definition, const lattice::Grid& grid);
 
 }  // namespace koshi::model

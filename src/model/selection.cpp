@@ -59,7 +59,7 @@ NodeBox select(const Selection& selection, const lattice::Grid& grid, const Plac
 
 std::vector<SelectedNode> selected_nodes(const SpringLattice& body, const NodeBox& box) {
   const lattice::Layout& layout = body.layout;
-  const std::uint8_t* cell = body.cell.component(0);
+  const std::uint16_t* cell = body.cell.component(0);
   const Int3 begin = layout.local(box.lo), end = layout.local(box.hi);
   Int3 lo, hi;
   for (int a = 0; a < 3; ++a) {

@@ -1,12 +1,8 @@
 #include "koshi/spring_lattice.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <map>
-#include <set>
+#include <optional>
 
-#include "koshi/error.h"
 #include "lattice/halo.h"
 
 namespace koshi::model {
@@ -39,95 +35,47 @@ std::vector<std::int64_t> offsets_around(const lattice::Layout& layout, const st
   return offsets;
 }
 
-/// Family of a bond and the materials of the up to four cells around it, ascending.
-using ClassKey = std::array<std::uint8_t, 5>;
-
-// Calls f(slot, node, key) for the forward bonds of all owned nodes that have a solid cell around them.
-template <class F>
-void for_each_bond(const SpringLattice& body, F&& f) {
-  const std::uint8_t* cell = body.cell.component(0);
-  for (int slot = 0; slot < lattice::slot_count; ++slot) {
-    const auto around = offsets_around(body.layout, slots[slot].s);
-    ClassKey found{}, key{};
-    lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
-      ClassKey here{static_cast<std::uint8_t>(slots[slot].family)};
-      for (std::size_t c = 0; c < around.size(); ++c) here[c + 1] = cell[n + around[c]];
-      // Neighbours mostly have the same cells around them.
-      if (here != found) {
-        found = key = here;
-        std::sort(key.begin() + 1, key.end());
-      }
-      if (key.back() != 0) f(slot, n, key);
-    });
+// The cell of the whole grid with lowest corner `node` of this rank, periodic directions wrapped around; none outside.
+std::optional<Int3> global_cell(const SpringLattice& body, const Int3& node) {
+  Int3 c = body.layout.global(node);
+  for (int a = 0; a < 3; ++a) {
+    const std::int64_t cells = body.grid.cells[a];
+    if (body.grid.periodic[a]) c[a] = (c[a] + cells) % cells;
+    if (c[a] < 0 || c[a] >= cells) return std::nullopt;
   }
+  return c;
 }
 
-// The classes that occur on any rank, in ascending order (collective).
-std::set<ClassKey> all_classes(const SpringLattice& body) {
-  std::set<ClassKey> own;
-  ClassKey last{};
-  for_each_bond(body, [&](int, std::int64_t, const ClassKey& key) {
-    if (key != last) own.insert(last = key);
+// Values of all cells that touch an owned node: those with lowest corners -1 ... owned - 1.
+template <class T>
+lattice::Field<T> make_cell_field(const SpringLattice& body, const std::function<T(const Int3&)>& value_of) {
+  lattice::Field<T> field(body.layout, 1);
+  lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
+    if (const auto cell = global_cell(body, {i, j, k})) field.component(0)[n] = value_of(*cell);
   });
-  std::string bytes;
-  for (const ClassKey& key : own) bytes.append(key.begin(), key.end());
-  const Communicator& communicator = body.halo->communicator();
-  bytes = communicator.broadcast(communicator.gather(bytes));
-  std::set<ClassKey> all;
-  for (std::size_t at = 0; at < bytes.size(); at += ClassKey{}.size()) {
-    ClassKey key;
-    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), key.size(), key.begin());
-    all.insert(key);
-  }
-  return all;
-}
-
-BondClass make_class(lattice::Family family, const ClassKey& key, material::Sharing sharing,
-                     const std::vector<material::Springs>& springs) {
-  BondClass bond;
-  for (std::size_t c = 1; c < key.size(); ++c) {
-    const std::uint8_t m = key[c];
-    if (m == 0) continue;
-    ++bond.solid_cells;
-    bond.kn += springs[m].kn[family];
-    bond.kt += springs[m].kt[family];
-  }
-  const double parts = sharing == material::Sharing::shared ? lattice::cells_per_bond[family] : bond.solid_cells;
-  bond.kn /= parts;
-  bond.kt /= parts;
-  return bond;
+  return field;
 }
 
 }  // namespace
 
-bool SpringLattice::has_volumetric() const {
-  return std::any_of(springs.begin(), springs.end(), [](const material::Springs& s) { return s.kappa != 0; });
-}
-
 SpringLattice make_cells(const lattice::Grid& grid, std::shared_ptr<const lattice::Partition> partition,
                          std::shared_ptr<const lattice::Halo> halo,
-                         const std::function<std::uint8_t(const Int3&)>& material_of) {
+                         const std::function<std::uint16_t(const Int3&)>& material_of) {
   SpringLattice body;
   body.grid = grid;
   body.layout = halo->layout();
   body.partition = std::move(partition);
   body.halo = std::move(halo);
-  // Cells that touch an owned node have lowest corners -1 ... owned - 1; periodic directions wrap around.
-  body.cell = lattice::Field<std::uint8_t>(body.layout, 1);
-  std::uint8_t* cell = body.cell.component(0);
-  lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
-    Int3 c = body.layout.global({i, j, k});
-    for (int a = 0; a < 3; ++a) {
-      if (grid.periodic[a]) c[a] = (c[a] + grid.cells[a]) % grid.cells[a];
-      if (c[a] < 0 || c[a] >= grid.cells[a]) return;
-    }
-    cell[n] = material_of(c);
-  });
+  body.cell = make_cell_field<std::uint16_t>(body, material_of);
   return body;
 }
 
+void make_factors(SpringLattice& body, const std::function<float(const Int3&)>& factor_of) {
+  body.factor = make_cell_field<float>(body, factor_of);
+}
+
 std::array<double, lattice::slot_count> count_bonds(const SpringLattice& body, material::Sharing sharing) {
-  const std::uint8_t* cell = body.cell.component(0);
+  const std::uint16_t* cell = body.cell.component(0);
   const Int3& owned = body.layout.owned();
   // A bond belongs to the rank that owns its first node; count quarters, so that the sum is one of integers.
   std::array<std::int64_t, lattice::slot_count> quarters{};
@@ -146,42 +94,39 @@ std::array<double, lattice::slot_count> count_bonds(const SpringLattice& body, m
   return counts;
 }
 
-void make_bonds(SpringLattice& body, material::Sharing sharing, material::Kinematics kinematics,
-                std::vector<material::Springs> springs) {
+void set_springs(SpringLattice& body, material::Sharing sharing, material::Kinematics kinematics,
+                 std::vector<material::Springs> springs) {
   body.sharing = sharing;
   body.kinematics = kinematics;
   body.springs = std::move(springs);
-  body.classes.assign(1, BondClass{});
+  if (sharing == material::Sharing::plain) make_bonds(body, body.bond, body.bond_cells);
+}
 
-  // Every rank numbers the classes alike: by family, then by the materials around the bond.
-  const auto classes = all_classes(body);
-  std::map<ClassKey, std::uint8_t> number;
-  for (const ClassKey& key : classes) {
-    const BondClass made = make_class(static_cast<lattice::Family>(key[0]), key, sharing, body.springs);
-    // A family the unit cell does not have leaves its bonds absent.
-    if (made.kn == 0 && made.kt == 0) continue;
-    if (body.classes.size() > SpringLattice::max_classes)
-      throw InputError(fmt::format(
-          "the mixtures of materials around bonds need more than {} kinds of bonds; merge similar materials "
-          "(about 6 may touch each other in every combination)",
-          SpringLattice::max_classes));
-    number[key] = static_cast<std::uint8_t>(body.classes.size());
-    body.classes.push_back(made);
+void make_bonds(const SpringLattice& body, lattice::Field<double>& bond, lattice::Field<std::uint8_t>& bond_cells) {
+  bond = lattice::Field<double>(body.layout, 2 * lattice::slot_count);
+  bond_cells = lattice::Field<std::uint8_t>(body.layout, lattice::slot_count);
+  const std::uint16_t* cell = body.cell.component(0);
+  for (int slot = 0; slot < lattice::slot_count; ++slot) {
+    const auto& [s, family] = lattice::slots[slot];
+    const auto around = offsets_around(body.layout, s);
+    lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
+      double kn = 0, kt = 0;
+      int solid = 0;
+      for (const std::int64_t o : around) {
+        const material::Springs& springs = body.springs[cell[n + o]];
+        solid += cell[n + o] != 0;
+        kn += body.factor_of(n + o) * springs.kn[family];
+        kt += body.factor_of(n + o) * springs.kt[family];
+      }
+      if (solid == 0) return;
+      const double parts = body.sharing == material::Sharing::shared ? lattice::cells_per_bond[family] : solid;
+      bond.component(2 * slot)[n] = kn / parts;
+      bond.component(2 * slot + 1)[n] = kt / parts;
+      bond_cells.component(slot)[n] = static_cast<std::uint8_t>(solid);
+    });
   }
-
-  body.bond = lattice::Field<std::uint8_t>(body.layout, lattice::slot_count);
-  ClassKey last{};
-  std::uint8_t last_number = 0;
-  for_each_bond(body, [&](int slot, std::int64_t n, const ClassKey& key) {
-    // Neighbours mostly have the same class.
-    if (key != last) {
-      last = key;
-      const auto found = number.find(key);
-      last_number = found == number.end() ? std::uint8_t{0} : found->second;
-    }
-    body.bond.component(slot)[n] = last_number;
-  });
-  body.halo->exchange(body.bond);
+  body.halo->exchange(bond);
+  body.halo->exchange(bond_cells);
 }
 
 }  // namespace koshi::model

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -43,9 +44,9 @@ json field_block(const io::FieldInfo& field, std::span<const float> values) {
 // The material of the cells as a field of names; nothing for a body of one material.
 json material_block(const io::FieldReader& reader, std::span<const std::int64_t> cells,
                     std::span<const std::string> materials) {
-  const std::span<const std::uint8_t> material = reader.material();
-  std::array<bool, 256> present{};
-  for (const std::uint8_t code : material) present[code] = true;
+  const std::span<const std::uint16_t> material = reader.material();
+  std::vector<bool> present(std::numeric_limits<std::uint16_t>::max() + 1);
+  for (const std::uint16_t code : material) present[code] = true;
   std::vector<float> values;
   values.reserve(cells.size());
   for (const std::int64_t cell : cells) values.push_back(material[static_cast<std::size_t>(cell)]);

@@ -39,10 +39,10 @@ struct Blocks {
   Box cells;   // of the body
   Box blocks;  // of the thinned body
   std::int64_t stride;
-  std::span<const std::uint8_t> material;
+  std::span<const std::uint16_t> material;
   std::vector<std::uint8_t> solid;  // by block
 
-  Blocks(const Box& body, std::span<const std::uint8_t> body_material, std::int64_t block_stride)
+  Blocks(const Box& body, std::span<const std::uint16_t> body_material, std::int64_t block_stride)
       : cells(body), stride(block_stride), material(body_material) {
     for (std::size_t a = 0; a < 3; ++a) blocks.size[a] = (body.size[a] + stride - 1) / stride;
     solid.resize(static_cast<std::size_t>(blocks.count()));
@@ -131,7 +131,7 @@ struct Blocks {
 
 // Smallest stride that brings the surface below the limit. A surface of n points has about n/s^2 with stride s, so the
 // search starts a little below that.
-Blocks thinned(const Box& cells, std::span<const std::uint8_t> material, std::int64_t points, std::int64_t limit) {
+Blocks thinned(const Box& cells, std::span<const std::uint16_t> material, std::int64_t points, std::int64_t limit) {
   auto stride = static_cast<std::int64_t>(std::sqrt(static_cast<double>(points) / static_cast<double>(limit)));
   stride = std::max<std::int64_t>(2, stride - 1);
   for (;; ++stride) {
@@ -142,7 +142,7 @@ Blocks thinned(const Box& cells, std::span<const std::uint8_t> material, std::in
 
 }  // namespace
 
-Surface extract_surface(const Int3& cells, std::span<const std::uint8_t> material, const SurfaceLimits& limits) {
+Surface extract_surface(const Int3& cells, std::span<const std::uint16_t> material, const SurfaceLimits& limits) {
   const Box body{cells}, nodes = nodes_of(body);
   Surface surface;
   Blocks blocks(body, material, 1);

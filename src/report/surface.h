@@ -30,6 +30,6 @@ struct Surface {
 /// Thinned, blocks of stride^3 cells with any solid cell count as solid, and a corner of a block becomes the node
 /// nearest to it that touches a solid cell of the blocks around, so that every point shown is a node with its own
 /// values.
-Surface extract_surface(const Int3& cells, std::span<const std::uint8_t> material, const SurfaceLimits& limits);
+Surface extract_surface(const Int3& cells, std::span<const std::uint16_t> material, const SurfaceLimits& limits);
 
 }  // namespace koshi::report

@@ -1,20 +1,15 @@
-// Springs of merged cells: the constants of cell_rows.h, and the matrices they stand for.
+// Springs of merged cells: the constants of cell_strip.h, and the matrices they stand for.
 #pragma once
 
 #include <array>
 
 #include <Eigen/Core>
 
-#include "koshi/springs.h"
-#include "mechanics/cell_rows.h"
+#include "mechanics/cell_table.h"
 
 namespace koshi::statics {
 
-/// Constants of one cell, cell_rows.h; linear in the springs.
-using CellConstants = std::array<double, mechanics::cell_constants>;
-
-/// Constants [N/m] of a cell with shared springs of side d [m].
-CellConstants cell_constants(const material::Springs& springs, double d);
+using mechanics::CellConstants;
 
 /// The stiffness matrices that belong to unit constants, (8 components)^2, corner a = x + 2 y + 4 z, corner-major;
 /// unknowns u and rho = (d/2) w.

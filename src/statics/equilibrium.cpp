@@ -44,25 +44,22 @@ Equilibrium::Equilibrium(const model::Model& model, double t, lattice::Field<dou
   });
 }
 
-// Calls use(unknown of component 0 of node i = 0, node i = 0, j, k) for every row of owned nodes.
-template <class F>
-void Equilibrium::for_each_row(F&& use) const {
-  const lattice::Layout& layout = model_.layout();
-  const Int3& owned = layout.owned();
-  for (std::int64_t k = 0; k < owned[2]; ++k)
-    for (std::int64_t j = 0; j < owned[1]; ++j) use(owned[0] * (j + owned[1] * k), layout.index(0, j, k), j, k);
+std::int64_t Equilibrium::unknown_of(std::int64_t j, std::int64_t k) const {
+  const Int3& owned = model_.layout().owned();
+  return owned[0] * (j + owned[1] * k);
 }
 
 void Equilibrium::to_field(const double* x, lattice::Field<double>& field) const {
-  const std::int64_t count = model_.layout().owned()[0];
-  for_each_row([&](std::int64_t unknown, std::int64_t node, auto, auto) {
-    for (int c = 0; c < components_; ++c) {
-      const double factor = 1 / scale(c);
-      const double* const from = x + c * node_count_ + unknown;
-      double* const to = field.component(c) + node;
-      for (std::int64_t i = 0; i < count; ++i) to[i] = factor * from[i];
-    }
-  });
+  const lattice::Layout& layout = model_.layout();
+  const Int3& owned = layout.owned();
+  for (std::int64_t k = 0; k < owned[2]; ++k)
+    for (std::int64_t j = 0; j < owned[1]; ++j)
+      for (int c = 0; c < components_; ++c) {
+        const double factor = 1 / scale(c);
+        const double* const from = x + c * node_count_ + unknown_of(j, k);
+        double* const to = field.component(c) + layout.index(0, j, k);
+        for (std::int64_t i = 0; i < owned[0]; ++i) to[i] = factor * from[i];
+      }
 }
 
 void Equilibrium::right_hand_side(double* b) {
@@ -72,11 +69,12 @@ void Equilibrium::right_hand_side(double* b) {
   model_.lattice.halo->exchange(work_);
   mechanics::LoadRows loads(model_);
   loads.set_time(t_);
-  for_each_row([&](std::int64_t unknown, std::int64_t, std::int64_t j, std::int64_t k) {
-    double* const* force = kernel_.row(work_, j, k);
+  kernel_.for_each_row(work_, [&](std::int64_t j, std::int64_t k, double* const* force) {
     loads.add(j, k, force);
-    for (int c = 0; c < components_; ++c)
-      for (std::int64_t i = 0; i < count; ++i) b[c * node_count_ + unknown + i] = force[c][i] / scale(c);
+    for (int c = 0; c < components_; ++c) {
+      double* const to = b + c * node_count_ + unknown_of(j, k);
+      for (std::int64_t i = 0; i < count; ++i) to[i] = force[c][i] / scale(c);
+    }
   });
   for (const Prescribed& p : prescribed_) b[p.unknown] = 0;
 }
@@ -86,11 +84,10 @@ void Equilibrium::apply(const double* x, double* y) {
   for (const Prescribed& p : prescribed_) work_.component(p.component)[p.node] = 0;
   model_.lattice.halo->exchange(work_);
   const std::int64_t count = model_.layout().owned()[0];
-  for_each_row([&](std::int64_t unknown, std::int64_t, std::int64_t j, std::int64_t k) {
-    const double* const* force = kernel_.row(work_, j, k);
+  kernel_.for_each_row(work_, [&](std::int64_t j, std::int64_t k, double* const* force) {
     for (int c = 0; c < components_; ++c) {
       const double factor = -1 / scale(c);
-      double* const to = y + c * node_count_ + unknown;
+      double* const to = y + c * node_count_ + unknown_of(j, k);
       for (std::int64_t i = 0; i < count; ++i) to[i] = factor * force[c][i];
     }
   });

@@ -30,8 +30,8 @@ class Equilibrium {
 
  private:
   void to_field(const double* x, lattice::Field<double>& field) const;
-  template <class F>
-  void for_each_row(F&& use) const;
+  /// Number of component 0 of the first node of row (j, k).
+  std::int64_t unknown_of(std::int64_t j, std::int64_t k) const;
   // Unknowns per unit of a component: 1, or d/2 for rotations.
   double scale(int component) const { return component < 3 ? 1 : half_d_; }
 
@@ -40,7 +40,7 @@ class Equilibrium {
   std::int64_t node_count_;
   double t_, half_d_;
   lattice::Field<double>& work_;
-  mechanics::ForceKernel<double> kernel_;
+  mechanics::ForceKernel kernel_;
   FixedNodes fixed_;
   struct Prescribed {
     std::int64_t unknown, node;

@@ -6,6 +6,16 @@
 
 namespace koshi::statics {
 
+namespace {
+
+// Of a second-level cache, the part that the values of a block of rows may fill [bytes].
+constexpr std::int64_t cache = 768 * 1024;
+
+// Are there cells below the first owned nodes in x? (Not where rows of the body are whole.)
+bool cells_below(const LevelGrid& grid) { return grid.halo->layout().begin()[0] > 0 || grid.grid.periodic[0]; }
+
+}  // namespace
+
 bool LevelGrid::can_coarsen() const {
   for (int a = 0; a < 3; ++a) {
     if (grid.periodic[a] && grid.cells[a] % 2 != 0) return false;
@@ -61,40 +71,39 @@ Level::Level(LevelGrid grid, int components, const RowField<float>& constants, F
       springs_(constants),
       blocks_(springs_, fixed_, components),
       y_(grid_.owned(), components),
-      force_({grid_.owned()[0], grid_.owned()[1], 0}, components),
+      sweep_(components, grid_.owned()[0], grid_.owned()[1], cells_below(grid_), 1, cache),
       line_({grid_.owned()[0] + 1, 0, 0}, 1) {}
 
-mechanics::RelaxRow Level::relax_row(std::int64_t j, std::int64_t k) {
-  return {b.row(j, k),    x.row(j, k),       y_.row(j, k),      b.pitch(),        force_.row(j, (k & 1) - 1),
-          force_.pitch(), blocks_.row(j, k), blocks_.uniform(), blocks_.blocks(), grid_.owned()[0]};
+mechanics::RelaxRow Level::relax_row(std::int64_t j, std::int64_t k, const float* force) {
+  return {b.row(j, k),    x.row(j, k),       y_.row(j, k),      b.pitch(),        force,
+          sweep_.pitch(), blocks_.row(j, k), blocks_.uniform(), blocks_.blocks(), grid_.owned()[0]};
 }
 
 template <class F>
 void Level::for_each_row(F&& use) {
-  const auto& kernels = mechanics::cell_kernels<float>();
-  const auto forces = components_ == 6 ? kernels.rotational : kernels.least_squares;
+  const auto& kernels = mechanics::strip_kernels<float>();
   const Int3& owned = grid_.owned();
   x.exchange(*grid_.halo);
-  force_.zero();
-  mechanics::CellRow<float> cells{nullptr, springs_.pitch(), {}, x.pitch(), {}, force_.pitch()};
-  for (std::int64_t k = -1; k < owned[2]; ++k)
-    for (std::int64_t j = -1; j < owned[1]; ++j) {
-      // The row of cells (j, k) is the last one that node row (j, k) waits for.
-      const std::int32_t row = springs_.row(j, k);
-      const auto [first, last] = springs_.span(row);
-      if (first < last) {
-        cells.constants = springs_.constants(row);
-        for (int r = 0; r < 4; ++r) {
-          const std::int64_t node_j = j + (r & 1), node_k = k + (r >> 1);
-          cells.u[r] = x.row(node_j, node_k);
-          cells.force[r] = force_.row(node_j, (node_k & 1) - 1);
-        }
-        forces(cells, first, last);
-      }
-      if (j >= 0 && k >= 0 && blocks_.row(j, k) != nullptr) use(j, k, relax_row(j, k));
-      // Rows of ghosts belong to others.
-      if (k < 0) std::memset(force_.row(j, (k & 1) - 1), 0, static_cast<std::size_t>(force_.pitch() * components_) * 4);
-    }
+  // The strip whose constants were prepared last.
+  std::int32_t last_row = -1;
+  std::int64_t last_i = 0;
+  const auto constants = [&](std::int64_t i, std::int64_t j, std::int64_t k, std::int64_t cells,
+                             float* to) -> const float* {
+    const std::int32_t row = springs_.row(j, k);
+    const auto [first, last] = springs_.span(row);
+    if (last <= i || i + cells <= first) return nullptr;
+    if (row != last_row || i != last_i) kernels.prepare_rows(springs_.constants(row) + i, springs_.pitch(), cells, to);
+    last_row = row;
+    last_i = i;
+    return to;
+  };
+  sweep_.run(
+      {x.row(0, 0), x.pitch(), x.row(1, 0) - x.row(0, 0), x.row(0, 1) - x.row(0, 0)}, {0, owned[1], 0, owned[2]},
+      constants,
+      [&](std::int64_t j, std::int64_t k, float* const* force) {
+        if (blocks_.row(j, k) != nullptr) use(j, k, relax_row(j, k, force[0]));
+      },
+      [](std::int64_t, std::int64_t) {});
 }
 
 void Level::relax(int degree, double bound, bool from_zero) {
@@ -104,7 +113,7 @@ void Level::relax(int degree, double bound, bool from_zero) {
     if (step == 1 && from_zero) {
       for (std::int64_t k = 0; k < grid_.owned()[2]; ++k)
         for (std::int64_t j = 0; j < grid_.owned()[1]; ++j)
-          if (blocks_.row(j, k) != nullptr) kernels.relax_zero(relax_row(j, k), components_, c(1));
+          if (blocks_.row(j, k) != nullptr) kernels.relax_zero(relax_row(j, k, nullptr), components_, c(1));
     } else {
       // y holds the step before; before the first there is none, or x = 0.
       const float a = static_cast<float>(2 * step - 3) / static_cast<float>(2 * step + 1);

@@ -6,6 +6,7 @@
 #include "koshi/grid.h"
 #include "lattice/halo.h"
 #include "lattice/partition.h"
+#include "mechanics/cell_sweep.h"
 #include "statics/fixed_nodes.h"
 #include "statics/node_blocks.h"
 #include "statics/spring_rows.h"
@@ -56,7 +57,7 @@ class Level {
   /// Runs over all rows of owned nodes: use(j, k, row) gets the row with its forces -K x.
   template <class F>
   void for_each_row(F&& use);
-  mechanics::RelaxRow relax_row(std::int64_t j, std::int64_t k);
+  mechanics::RelaxRow relax_row(std::int64_t j, std::int64_t k, const float* force);
 
   LevelGrid grid_;
   int components_;
@@ -64,8 +65,8 @@ class Level {
   SpringRows springs_;
   NodeBlocks blocks_;
   RowField<float> y_;
-  RowField<float> force_;  ///< two planes of forces under construction
-  RowField<float> line_;   ///< one component of a row, for transfers
+  mechanics::CellSweep<float> sweep_;
+  RowField<float> line_;  ///< one component of a row, for transfers
 };
 
 }  // namespace koshi::statics

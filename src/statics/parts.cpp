@@ -51,7 +51,7 @@ Parts::Parts(const model::SpringLattice& body) : owned_(body.layout.owned()) {
 
 // Runs of solid cells along x, each numbered by the connected set of runs it belongs to on this rank.
 void Parts::find_runs(const model::SpringLattice& body) {
-  const std::uint8_t* const cell = body.cell.component(0);
+  const std::uint16_t* const cell = body.cell.component(0);
   for (std::int64_t k = -1; k < owned_[2]; ++k)
     for (std::int64_t j = -1; j < owned_[1]; ++j) {
       row_runs_.push_back(static_cast<std::int64_t>(runs_.size()));

@@ -13,7 +13,7 @@ namespace {
 std::vector<CellConstants> preconditioner_constants(const model::SpringLattice& body) {
   std::vector<CellConstants> by_material;
   for (const material::Springs& springs : body.springs) {
-    CellConstants& k = by_material.emplace_back(cell_constants(springs, body.grid.d));
+    CellConstants& k = by_material.emplace_back(mechanics::springs_of_cell(springs, body.grid.d));
     if (body.components() == 6 && springs.kt[1] == 0 && springs.kt[2] == 0) k[3] = 0.1 * k[1];
   }
   return by_material;
@@ -25,11 +25,12 @@ RowField<float> fine_constants(const model::SpringLattice& body, const std::vect
   for (const CellConstants& constants : by_material)
     for (const double k : constants) largest = std::max(largest, std::abs(k));
   RowField<float> constants(body.layout.owned(), mechanics::cell_constants);
-  const std::uint8_t* const cell = body.cell.component(0);
+  const std::uint16_t* const cell = body.cell.component(0);
   lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
     if (cell[n] == 0) return;
     for (int q = 0; q < mechanics::cell_constants; ++q)
-      constants.row(j, k)[q * constants.pitch() + i] = static_cast<float>(by_material[cell[n]][q] / largest);
+      constants.row(j, k)[q * constants.pitch() + i] =
+          static_cast<float>(body.factor_of(n) * by_material[cell[n]][q] / largest);
   });
   return constants;
 }

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "mechanics/cell_rows.h"
+#include "mechanics/cell_strip.h"
 #include "statics/row_field.h"
 
 namespace koshi::statics {

@@ -163,8 +163,8 @@ TEST_F(Program, NamesASpacingThatFitsTheMemory) {
                         &needed, &free, &spacing),
             3)
       << ended.error;
-  // 8 mm / 0.25 um = 32000 cells a side, about 175 bytes each.
-  EXPECT_NEAR(needed * 1e9 / 32000 / 32000 / 32000, 175, 10);
+  // 8 mm / 0.25 um = 32000 cells a side, about 154 bytes each.
+  EXPECT_NEAR(needed * 1e9 / 32000 / 32000 / 32000, 154, 8);
   const double cells = 0.008 / spacing;
   EXPECT_LT(needed * std::pow(cells / 32000, 3), free);
   EXPECT_GT(needed * std::pow(cells / 32000, 3), 0.7 * free);  // and is not far too coarse

@@ -1,5 +1,5 @@
 // Independent oracle for internal forces: loops over cells and their bonds with the bond law, scattering to both ends.
-// Knows nothing of rows, stencils or classes; slow.
+// Knows nothing of rows or amplitudes; slow.
 #pragma once
 
 #include <array>
@@ -24,7 +24,7 @@ inline BruteForce brute_force(const model::SpringLattice& body, const std::vecto
   const Int3 n = grid.nodes();
   const bool rotational = body.kinematics == material::Kinematics::rotational;
   const double d = grid.d;
-  const std::uint8_t* cells = body.cell.component(0);
+  const std::uint16_t* cells = body.cell.component(0);
   const auto node_id = [&](Int3 p) {
     for (int a = 0; a < 3; ++a)
       if (grid.periodic[a]) p[a] = (p[a] + n[a]) % n[a];

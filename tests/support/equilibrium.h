@@ -98,7 +98,7 @@ class Equilibrium {
   }
 
   driver::Simulation simulation_;
-  mechanics::ForceKernel<double> kernel_;
+  mechanics::ForceKernel kernel_;
   std::vector<std::int64_t> free_;  ///< positions of the free unknowns in a field
   mechanics::Measurement measurement_;
   int iterations_ = 0;

@@ -145,7 +145,7 @@ format = "vtk")",
        R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"]
 position = [0, 0, 0]
 )",
-       R"(7:1: error: unknown key "position" in [body]; known: "origin", "size", "material", "periodic", "image", "materials")"},
+       R"(7:1: error: unknown key "position" in [body]; known: "origin", "size", "material", "periodic", "image", "materials", "factor")"},
   };
   ASSERT_EQ(inputs.size(), 26u);
   expect_messages(inputs);

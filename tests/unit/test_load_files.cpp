@@ -28,8 +28,8 @@ using testing::ThrowsMessage;
 // 4 x 3 x 2 cells with the values 7 (void), -2 ("soft"), 300 ("hard"), no two axes alike.
 constexpr int nx = 4, ny = 3, nz = 2;
 int value(int i, int j, int k) { return i == 0 ? 7 : (j + 2 * k + i) % 3 == 0 ? -2 : 300; }
-std::vector<std::uint8_t> expected_cells() {
-  std::vector<std::uint8_t> cells;
+std::vector<std::uint16_t> expected_cells() {
+  std::vector<std::uint16_t> cells;
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) cells.push_back(value(i, j, k) == 7 ? 0 : value(i, j, k) == -2 ? 1 : 2);
@@ -136,7 +136,7 @@ TEST_F(LoadFilesTest, NumPyFilesOfUnsignedTypesAndBool) {
     write("mask.npy", bytes);
     const auto loaded = load_files(read(R"(image = "mask.npy"
 materials = { 0 = "void", 1 = "hard" })"));
-    EXPECT_EQ(loaded.body.cells, (std::vector<std::uint8_t>{2, 0, 2}));
+    EXPECT_EQ(loaded.body.cells, (std::vector<std::uint16_t>{2, 0, 2}));
   }
 }
 

@@ -12,6 +12,9 @@
 namespace koshi::study {
 namespace {
 
+using driver::Outcome;
+using driver::RunOptions;
+using driver::Simulation;
 using json = nlohmann::ordered_json;
 using lattice::CellType;
 using testing::HasSubstr;

@@ -15,8 +15,8 @@ constexpr SurfaceLimits everything{1'000'000, 1'000'000};
 
 // One byte per cell, from a predicate of (i, j, k).
 template <class F>
-std::vector<std::uint8_t> cells_where(const Int3& cells, F&& solid) {
-  std::vector<std::uint8_t> material;
+std::vector<std::uint16_t> cells_where(const Int3& cells, F&& solid) {
+  std::vector<std::uint16_t> material;
   for (std::int64_t k = 0; k < cells[2]; ++k)
     for (std::int64_t j = 0; j < cells[1]; ++j)
       for (std::int64_t i = 0; i < cells[0]; ++i) material.push_back(solid(i, j, k) ? 2 : 0);

@@ -90,7 +90,7 @@ TEST_P(Motion, ConservesEnergyOverAHundredThousandSteps) {
   Flight flight(definition);
   for (const model::PrescribedMotion& held : flight.model.motions)
     flight.state.velocity.component(held.component)[held.node] = 0;
-  mechanics::ForceKernel<double> kernel(flight.model.lattice);
+  mechanics::ForceKernel kernel(flight.model.lattice);
   lattice::Field<double> force(flight.model.layout(), flight.model.components());
   dynamics::ExplicitSolver solver(flight.model, flight.state, 0.005);
 

@@ -146,9 +146,9 @@ TEST_P(Exact, TwoLayersShareTheStress) {
 TEST_P(Exact, AnswersTurnWithTheAxes) {
   const Int3 size{6, 3, 2};
   const auto material_at = [](const Int3& p) {
-    return static_cast<std::uint8_t>((p[0] * 7 + p[1] * 5 + p[2] * 3 + p[0] * p[1]) % 4 == 0 && p[0] > 0 && p[0] < 5
-                                         ? 0
-                                         : 1 + (p[0] + 2 * p[1] + p[2]) % 3);
+    return static_cast<std::uint16_t>((p[0] * 7 + p[1] * 5 + p[2] * 3 + p[0] * p[1]) % 4 == 0 && p[0] > 0 && p[0] < 5
+                                          ? 0
+                                          : 1 + (p[0] + 2 * p[1] + p[2]) % 3);
   };
   double energy0 = 0, largest_difference = 0;
   Vec3 tip0{};
@@ -204,7 +204,7 @@ TEST_P(Exact, ReactionsBalanceTheLoads) {
   definition.materials.push_back({"soft", {100e6, 0.4, 1000}});
   definition.materials.push_back({"hard", {9e9, 0.1, 3000}});
   for (int n = 0; n < 80; ++n)
-    definition.body.cells.push_back(static_cast<std::uint8_t>(n % 7 == 3 && n % 5 != 0 && n % 5 != 4 ? 0 : 1 + n % 3));
+    definition.body.cells.push_back(static_cast<std::uint16_t>(n % 7 == 3 && n % 5 != 0 && n % 5 != 4 ? 0 : 1 + n % 3));
   definition.boundaries = {test::fixed("root", Face::x_min, {0, 1, 2, 3, 4, 5})};
   model::LoadDefinition load;
   load.selection.face = Face::x_max;

@@ -41,9 +41,9 @@ class Forces : public testing::TestWithParam<Case> {
   model::SpringLattice body() const {
     const Case& c = GetParam();
     std::mt19937 random(5);
-    std::vector<std::uint8_t> cells(11 * 6 * 5, 1);
+    std::vector<std::uint16_t> cells(11 * 6 * 5, 1);
     if (c.mixed)
-      for (auto& m : cells) m = static_cast<std::uint8_t>(random() % 4);
+      for (auto& m : cells) m = static_cast<std::uint16_t>(random() % 4);
     return test::make_body(
         {11, 6, 5}, 0.8, c.sharing, c.kinematics, three_materials(c.kappa),
         [cells](const Int3& p) { return cells[static_cast<std::size_t>(p[0] + 11 * (p[1] + 6 * p[2]))]; }, c.periodic);
@@ -60,7 +60,7 @@ class Forces : public testing::TestWithParam<Case> {
   }
 
   static Nodes kernel_force(const model::SpringLattice& body, const Nodes& u) {
-    mechanics::ForceKernel<double> kernel(body);
+    mechanics::ForceKernel kernel(body);
     auto input = field(body, u);
     lattice::Field<double> output(body.layout, body.components());
     kernel.apply(input, output);

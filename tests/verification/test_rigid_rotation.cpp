@@ -35,7 +35,7 @@ TEST(RigidRotation, LeavesTheStrainOfItsCosine) {
         u.component(1)[n] = s * X[0] + c * X[1];
         if (model.components() == 6) u.component(5)[n] = angle;
       });
-      mechanics::ForceKernel<double> kernel(model.lattice);
+      mechanics::ForceKernel kernel(model.lattice);
       kernel.apply(u, force);
       double energy = 0;
       lattice::for_each_owned(model.layout(), [&](auto, auto, auto, auto n) {

@@ -44,7 +44,7 @@ TEST_P(Section9, DeflectionIsTheTables) {
   options.tolerance = 1e-10;
   const auto report = statics::solve_static(model, state, options);
   EXPECT_LE(report.relative_residual, 1e-10);
-  mechanics::ForceKernel<double> kernel(model.lattice);
+  mechanics::ForceKernel kernel(model.lattice);
   const auto measured = mechanics::Meter(model, kernel).measure(state, 0);
   ASSERT_EQ(measured.probes.size(), 1u);
   EXPECT_NEAR(100 * measured.probes[0][0], row.deflection, row.last_digit * (1 + 1e-6));

@@ -84,7 +84,7 @@ lattice::Field<double> direct_solution(const model::Model& model) {
     if (model.inertia.component(0)[n] > 0) nodes.push_back(n);
   });
   const auto size = static_cast<Eigen::Index>(nodes.size()) * components;
-  mechanics::ForceKernel<double> kernel(model.lattice);
+  mechanics::ForceKernel kernel(model.lattice);
   lattice::Field<double> u(layout, components), force(layout, components);
   std::vector<Eigen::Triplet<double>> entries;
   Eigen::VectorXd b = Eigen::VectorXd::Zero(size), value = Eigen::VectorXd::Zero(size);

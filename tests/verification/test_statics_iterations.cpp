@@ -85,7 +85,7 @@ model::Definition block(const Int3& n, F&& material) {
 // Overlapping spherical voids, 30 % of the body; odd numbers of cells.
 TEST(Iterations, PorousBlock) {
   const Int3 n{33, 29, 47};
-  std::vector<std::uint8_t> cells(static_cast<std::size_t>(n[0] * n[1] * n[2]), 1);
+  std::vector<std::uint16_t> cells(static_cast<std::size_t>(n[0] * n[1] * n[2]), 1);
   std::mt19937 random(1);
   const auto uniform = [&](double scale) { return scale * static_cast<double>(random()) / 4294967296.0; };
   std::size_t empty = 0;
@@ -110,7 +110,7 @@ TEST(Iterations, PorousBlock) {
 // Every third cell or so ten times softer, and periodic across.
 TEST(Iterations, TwoPhaseBlock) {
   std::mt19937 random(2);
-  const auto mixed = [&](const Int3&) { return static_cast<std::uint8_t>(random() % 10 < 3 ? 2 : 1); };
+  const auto mixed = [&](const Int3&) { return static_cast<std::uint16_t>(random() % 10 < 3 ? 2 : 1); };
   expect_iterations(block({29, 27, 37}, mixed), 25);
   model::Definition periodic = block({28, 24, 36}, mixed);
   periodic.body.periodic = {true, true, false};
@@ -126,7 +126,7 @@ model::Definition island() {
       const std::int64_t distance = std::abs(c[a] - 10);
       outside = std::max(outside, distance > 2 ? 2 : distance > 1 ? 1 : 0);
     }
-    return static_cast<std::uint8_t>(outside == 1 ? 0 : 1);
+    return static_cast<std::uint16_t>(outside == 1 ? 0 : 1);
   });
 }
 
@@ -156,7 +156,7 @@ TEST(FreeMotions, APushedIslandIsRefusedByName) {
 
 // On a smooth platen a block may slide and turn: balanced loads leave it where it is, a push is refused.
 TEST(FreeMotions, ABlockOnASmoothPlatenMaySlide) {
-  model::Definition definition = block({20, 20, 20}, [](const Int3&) { return std::uint8_t{1}; });
+  model::Definition definition = block({20, 20, 20}, [](const Int3&) { return std::uint16_t{1}; });
   definition.lattice.kinematics = Kinematics::least_squares;  // exact without a hold on rotations
   definition.boundaries[0].fix = {false, false, true, false, false, false};
   definition.boundaries.pop_back();

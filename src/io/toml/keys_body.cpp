@@ -82,6 +82,9 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
       key<D>("materials", &D::image_materials, "Material, or \"void\", of each value in the image.",
              {.required = true, .example = R"({0 = "void", 1 = "rock"})"})
           .only_for("a body with an image", {"image"}, imaged),
+      key<D>("factor", &D::factor,
+             "File of factors, 0 to 1, on the stiffness of each cell (.npy, .vti, .mha, .mhd, .nrrd); unset: 1.",
+             {.example = R"("damage.npy")"}),
   };
   return keys;
 }

@@ -23,6 +23,7 @@ void make_absolute(const std::string& directory, std::string& file) {
 std::string resolved_toml(const model::Definition& definition) {
   model::Definition resolved = definition;
   make_absolute(definition.directory, resolved.body.image);
+  make_absolute(definition.directory, resolved.body.factor);
   make_absolute(definition.directory, resolved.analysis.start_from);
   for (auto& region : resolved.regions) make_absolute(definition.directory, region.file);
 
