@@ -80,8 +80,9 @@ void launch(int ranks, const std::vector<std::string>& arguments) {
   if (child < 0) throw RunError(fmt::format("cannot start mpiexec: {}", std::strerror(errno)));
   if (child == 0) become_launcher(command);
   launcher = child;
-  std::signal(SIGINT, pass_on);
-  std::signal(SIGTERM, pass_on);
+  // nohup lets SIGHUP be ignored, and so it stays.
+  for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP})
+    if (std::signal(signal, pass_on) == SIG_IGN) std::signal(signal, SIG_IGN);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

@@ -87,6 +87,7 @@ struct State {
   lattice::Field<double> orientation;
   double time = 0;        ///< [s]
   std::int64_t step = 0;  ///< explicit steps so far
+  double time_step = 0;   ///< [s], of the run that took them; 0: none yet
 
   /// At rest, undeformed, at time 0.
   explicit State(const Model& model)

@@ -15,6 +15,7 @@ struct StaticOptions {
   int max_iterations = 500;                                               ///< RunError beyond
   std::vector<std::string> petsc_options;                                 ///< as on a command line: "-ksp_monitor", ...
   std::function<void(int iteration, double relative_residual)> progress;  ///< called after each iteration; empty: not
+  std::function<bool()> stop;  ///< called after each iteration by all ranks; true on all: give up; empty: never
 };
 
 /// How it went.
@@ -24,6 +25,7 @@ struct SolveReport {
   std::int64_t unknowns = 0;                ///< free components of all nodes
   int levels = 0;                           ///< of the multigrid hierarchy
   bool converged = false;                   ///< to the tolerance
+  bool stopped = false;                     ///< StaticOptions::stop asked for it
   std::string reason;                       ///< PETSc's word for why it ended
   std::vector<double> residual_history;     ///< relative residual after 0, 1, 2 ... iterations
   double setup_seconds = 0;                 ///< wall time before the iterations [s]
@@ -35,7 +37,8 @@ struct SolveReport {
 
 /// Fills the state's displacements with the equilibrium under the loads at the end of their histories; velocities are
 /// zero (collective). Throws InputError when the loads move a part that nothing holds,
-/// RunError when the iteration does not converge; displacements are not defined then.
+/// RunError when the iteration does not converge; displacements are not defined then. A solve that is stopped leaves
+/// those of its last iteration.
 SolveReport solve_static(const model::Model& model, model::State& state, const StaticOptions& options);
 
 }  // namespace koshi::statics

@@ -31,6 +31,12 @@ py::dict measured(const model::Model& model, const mechanics::Measurement& measu
                   py::arg("unbalanced_ratio") = balance.unbalanced_ratio(), py::arg("probes") = probes);
 }
 
+// An interrupt (Ctrl-C) waits for the interpreter until its lock is taken.
+void raise_interrupt() {
+  const py::gil_scoped_acquire lock;
+  if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
 // Runs to the end of the analysis, with files where a directory is given.
 driver::Outcome run(Simulation& simulation, const driver::Observer& observer,
                     const std::optional<std::string>& directory, const std::vector<std::string>& petsc_options) {
@@ -47,26 +53,18 @@ py::dict run_to_end(Simulation& simulation, const std::optional<std::function<bo
                     const std::optional<std::function<void(double, const std::string&)>>& progress,
                     const std::vector<std::string>& petsc_options) {
   driver::Observer observer;
-  // An interrupt (Ctrl-C) is seen between steps.
-  observer.poll = [&](model::State&) {
-    if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-    return poll && (*poll)();
-  };
-  // Exceptions must not pass through a solver written in C: kept, and thrown once it has returned.
-  std::exception_ptr thrown;
-  if (progress)
-    observer.progress = [&](double part, const std::string& words) {
-      try {
-        if (!thrown) (*progress)(part, words);
-      } catch (...) {
-        thrown = std::current_exception();
-      }
-    };
-  const driver::Outcome outcome = run(simulation, observer, directory, petsc_options);
-  if (thrown) std::rethrow_exception(thrown);
+  observer.breathe = raise_interrupt;
+  if (poll) observer.poll = [&](model::State&) { return (*poll)(); };
+  if (progress) observer.progress = *progress;
+  // Other threads of the interpreter go on; the callbacks take its lock for themselves.
+  driver::Outcome outcome;
+  {
+    const py::gil_scoped_release released;
+    outcome = run(simulation, observer, directory, petsc_options);
+  }
   if (!outcome.stopped) driver::require_rest(simulation.model(), outcome);
   const auto residuals = outcome.solution ? outcome.solution->residual_history : std::vector<double>{};
-  if (outcome.solution && poll) (*poll)();
+  if (outcome.solution && !outcome.stopped && poll) (*poll)();
   return py::dict(
       py::arg("steps") = outcome.steps, py::arg("time_step") = outcome.time_step,
       py::arg("iterations") = outcome.solution ? outcome.solution->iterations : 0,
@@ -124,7 +122,9 @@ void bind_simulation(py::module_& module) {
   simulation.def("time", [](Simulation& s) { return s.state().time; });
   simulation.def("steps", [](Simulation& s) { return s.state().step; });
   simulation.def("time_step", &Simulation::time_step);
-  simulation.def("step", &Simulation::step);
+  simulation.def(
+      "step", [](Simulation& s, std::int64_t count) { s.step(count, raise_interrupt); },
+      py::call_guard<py::gil_scoped_release>());
   simulation.def("run", run_to_end);
   simulation.def("measure", [](Simulation& s) { return measured(s.model(), s.measure()); });
   simulation.def("set_load_factor", &Simulation::set_load_factor);

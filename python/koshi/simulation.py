@@ -96,7 +96,10 @@ class Simulation:
         return self._core.time_step()
 
     def step(self, count: int = 1) -> None:
-        """Explicit steps, whatever the type of the analysis."""
+        """Explicit steps, whatever the type of the analysis.
+
+        Other threads run meanwhile, and must leave this simulation alone; Ctrl-C ends it after the present step.
+        """
         self._core.step(count)
 
     def run(
@@ -109,11 +112,12 @@ class Simulation:
     ) -> Result:
         """Runs the analysis of the case from the present state to its end.
 
-        callback: called with the simulation every ten explicit steps, where True stops the run, or once with the
-        solution of a static analysis.
+        callback: called with the simulation every ten explicit steps, or after each iteration of a static analysis;
+        True stops the run. While a static analysis iterates its displacements are not defined: they are those of the
+        last iteration once it is stopped, else it is called once more with the solution.
         out: a directory for summary, history and fields, as written by `koshi run`.
         progress: called with the part of the work done (negative: unknown) and a few words, in a static analysis
-        after each iteration.
+        after each iteration. Other threads run meanwhile, and must leave this simulation alone; Ctrl-C ends the run.
         Raises InputError for an unstable step or a missing support, RunError when the run fails or does not come to
         rest.
         """

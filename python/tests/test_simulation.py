@@ -1,5 +1,9 @@
 """Runs, steps, fields as views, loads that change."""
 
+import os
+import signal
+import threading
+
 import numpy as np
 import pytest
 
@@ -99,7 +103,8 @@ def test_static_analysis_tells_its_iterations_and_shows_its_solution(case):
     case.analysis = koshi.Analysis("static", tolerance=1e-10)
     seen, steps = [], []
     result = koshi.run(case, callback=lambda s: seen.append(s.displacement[2].max()), progress=lambda *p: steps.append(p))
-    assert seen == pytest.approx([PULLED], rel=1e-9)
+    # After each iteration, 0 among them, and with the solution.
+    assert len(seen) == result.iterations + 2 and seen[-1] == pytest.approx(PULLED, rel=1e-9)
     assert result.measurement.probes["top"][2] == pytest.approx(PULLED, rel=1e-9)
     assert len(result.residuals) == result.iterations + 1 == len(steps)
     assert result.residuals[0] == 1 and result.residuals[-1] <= 1e-10 < result.residuals[-2]
@@ -109,6 +114,62 @@ def test_static_analysis_tells_its_iterations_and_shows_its_solution(case):
     simulation.run()
     simulation.set_load_factor("pull", 3)
     assert simulation.run().measurement.probes["top"][2] == pytest.approx(3 * PULLED, rel=1e-9)
+
+
+# Iterations without end: steps so small that the residual does not fall.
+ENDLESS = ["-ksp_type", "richardson", "-ksp_richardson_scale", "1e-15", "-ksp_max_it", "1000000000"]
+
+
+def test_static_analysis_stops_when_the_callback_asks(case, tmp_path):
+    case.analysis = koshi.Analysis("static")
+    calls = []
+    simulation = koshi.Simulation(case)
+    result = simulation.run(
+        lambda s: calls.append(s) or len(calls) == 5, petsc_options=ENDLESS, out=tmp_path / "out"
+    )
+    # Called after iterations 0 ... 4; steps of 1e-15 of the way leave the bar where it was.
+    assert result.stopped and len(calls) == 5 == len(result.residuals) and result.iterations == 4
+    assert result.residuals == pytest.approx(np.ones(5), abs=1e-6)
+    assert 0 < simulation.displacement[2].max() < 1e-6 * PULLED
+    assert not (tmp_path / "out/checkpoint.h5").exists()
+    # The same simulation goes on to the end.
+    assert simulation.run().measurement.probes["top"][2] == pytest.approx(PULLED, rel=1e-6)
+
+
+def interrupted_once(begun):
+    """A thread that presses Ctrl-C once the run has begun; it only gets there if the run lets other threads go on."""
+
+    def press():
+        begun()
+        os.kill(os.getpid(), signal.SIGINT)
+
+    thread = threading.Thread(target=press)
+    thread.start()
+    return thread
+
+
+@pytest.mark.parametrize("type", ["dynamic", "static"])
+def test_an_interrupt_ends_a_run(case, type):
+    case.analysis = koshi.Analysis(type, **({"duration": "1000 s"} if type == "dynamic" else {}))
+    begun = threading.Event()
+    thread = interrupted_once(begun.wait)
+    with pytest.raises(KeyboardInterrupt):
+        koshi.run(case, progress=lambda *_: begun.set(), petsc_options=ENDLESS if type == "static" else [])
+    thread.join()
+
+
+def test_an_interrupt_ends_stepping(case):
+    simulation = koshi.Simulation(case)
+
+    def stepping():
+        while simulation.steps == 0:
+            pass
+
+    thread = interrupted_once(stepping)
+    with pytest.raises(KeyboardInterrupt):
+        simulation.step(10**15)
+    thread.join()
+    assert simulation.steps > 0
 
 
 def test_a_hinge_is_solved_or_refused():

@@ -1,5 +1,7 @@
 #include "driver/checkpoints.h"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <csignal>
 
@@ -12,8 +14,7 @@ namespace {
 
 volatile std::sig_atomic_t stop_signal = 0;
 
-// Asks for a stop after a checkpoint; who presses Ctrl-C twice does not want to wait for it. SIGUSR1 is what launchers
-// pass on to their ranks.
+// Asks for a stop after a checkpoint; who presses Ctrl-C twice does not want to wait for it.
 void request_stop(int signal) {
   if (stop_signal == SIGINT && signal == SIGINT) {
     std::signal(SIGINT, SIG_DFL);
@@ -22,13 +23,19 @@ void request_stop(int signal) {
   stop_signal = signal;
 }
 
-constexpr std::array stop_signals{SIGINT, SIGTERM, SIGUSR1};
+// From people and shells; from batch systems before the time is up; from launchers, which pass SIGUSR1 and SIGUSR2 on
+// to their ranks; from a terminal that is closed.
+constexpr std::array stop_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP};
+
+// Name of the step's length among the numbers of a checkpoint.
+constexpr const char* time_step_name = "time_step";
 
 // What must be equal for a run to go on: everything but the output and how long to run.
 std::string case_text(model::Definition definition) {
   definition.title.clear();
   definition.output = {};
   if (definition.analysis.type == model::AnalysisDefinition::Type::dynamic) definition.analysis.duration = 1;
+  if (definition.analysis.type == model::AnalysisDefinition::Type::quasi_static) definition.analysis.duration.reset();
   return io::resolved_toml(definition);
 }
 
@@ -45,20 +52,35 @@ Checkpoints::Checkpoints(const model::Model& model, std::filesystem::path direct
       case_text_(case_text(model.definition)),
       last_wall_(steady_seconds()) {
   stop_signal = 0;
-  // An equilibrium is sought in one go, without checkpoints: a signal ends it at once.
-  if (model.definition.analysis.type != model::AnalysisDefinition::Type::statics)
-    for (const int signal : stop_signals) std::signal(signal, request_stop);
+  // A signal that was ignored before, as nohup does with SIGHUP, stays so.
+  for (const int signal : stop_signals)
+    if (const auto before = std::signal(signal, request_stop); before != SIG_ERR) before_.emplace_back(signal, before);
+  for (const auto& [signal, before] : before_)
+    if (before == SIG_IGN) std::signal(signal, SIG_IGN);
 }
 
 Checkpoints::~Checkpoints() {
-  for (const int signal : stop_signals) std::signal(signal, SIG_DFL);
+  for (const auto& [signal, before] : before_) std::signal(signal, before);
 }
 
 void Checkpoints::restore(const std::filesystem::path& file, model::State& state) {
   const auto fields = extra_fields(state);
   const io::CheckpointInfo info = io::read_checkpoint(file, model_, case_text_, state, fields);
+  const model::AnalysisDefinition& analysis = model_.definition.analysis;
+  if (analysis.type == model::AnalysisDefinition::Type::statics)
+    throw InputError(fmt::format(
+        "nothing is left to do: {} holds the equilibrium of this case; without --restart it is computed anew",
+        file.native()));
+  if (analysis.duration && *analysis.duration < (1 - 1e-9) * info.time)
+    throw InputError(
+        model_.definition.places.find("analysis.duration"),
+        fmt::format("{} is of t = {:.6g} s, after the end of a run of {:.6g} s; give a duration of more than {:.6g} s",
+                    file.native(), info.time, *analysis.duration, info.time));
   state.time = info.time;
   state.step = info.step;
+  // The step of the run so far, so that another duration changes nothing but the end.
+  const auto step = info.scalars.find(time_step_name);
+  if (step != info.scalars.end()) state.time_step = step->second;
   last_ = file;
 }
 
@@ -100,6 +122,7 @@ std::filesystem::path Checkpoints::write_diverged(model::State& state) {
 void Checkpoints::write_to(const std::filesystem::path& directory, model::State& state) const {
   io::CheckpointInfo info;
   info.case_text = case_text_;
+  if (state.time_step > 0) info.scalars[time_step_name] = state.time_step;
   const auto fields = extra_fields(state);
   io::write_checkpoint(directory, model_, state, info, fields);
 }
@@ -111,6 +134,7 @@ void start_from(const std::filesystem::path& directory, const model::Model& mode
   state.velocity.zero();
   state.time = 0;
   state.step = 0;
+  state.time_step = 0;
 }
 
 }  // namespace koshi::driver

@@ -2,13 +2,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "driver/simulation.h"
 
 namespace koshi::driver {
 
-/// Checkpoints of one run in its output directory. From its construction to its end SIGINT, SIGTERM and SIGUSR1 ask
-/// a run in time to stop after a last checkpoint instead of ending the process.
+/// Checkpoints of one run in its output directory. From its construction to its end SIGINT, SIGTERM, SIGUSR1, SIGUSR2,
+/// SIGXCPU and SIGHUP ask the run to stop, after a last checkpoint if it is one in time, instead of ending the process.
 class Checkpoints {
  public:
   Checkpoints(const model::Model& model, std::filesystem::path directory);
@@ -16,7 +19,8 @@ class Checkpoints {
   Checkpoints(const Checkpoints&) = delete;
   Checkpoints& operator=(const Checkpoints&) = delete;
 
-  /// Goes on from a checkpoint of the same case (collective).
+  /// Goes on from a checkpoint of the same case, with its step (collective). Throws InputError also when the run would
+  /// end before the checkpoint, or is an equilibrium, which has no checkpoints but its end.
   void restore(const std::filesystem::path& file, model::State& state);
   /// Writes one if it is due, by simulated or wall time, or because a signal came; true: stop the run (collective).
   bool poll(model::State& state);
@@ -34,8 +38,9 @@ class Checkpoints {
   const model::Model& model_;
   std::filesystem::path directory_;
   std::string case_text_;
-  std::filesystem::path last_;            ///< that this run has written or started from
-  double last_time_ = 0, last_wall_ = 0;  ///< of the last checkpoint [s]
+  std::vector<std::pair<int, void (*)(int)>> before_;  ///< signals and what they did before
+  std::filesystem::path last_;                         ///< that this run has written or started from
+  double last_time_ = 0, last_wall_ = 0;               ///< of the last checkpoint [s]
 };
 
 /// Takes the displacements of the last checkpoint in an earlier run's output directory as the start: an equilibrium for

@@ -63,7 +63,12 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
     progress.update(fraction, details);
     if (outer.progress) outer.progress(fraction, details);
   };
-  observer.poll = [&](model::State& at) { return checkpoints.poll(at) || (outer.poll && outer.poll(at)); };
+  // An equilibrium is sought in one go, without checkpoints on the way.
+  const bool statics = definition.analysis.type == model::AnalysisDefinition::Type::statics;
+  observer.poll = [&](model::State& at) {
+    return (statics ? checkpoints.stop_requested() : checkpoints.poll(at)) || (outer.poll && outer.poll(at));
+  };
+  observer.breathe = outer.breathe;
   observer.diverged = [&](model::State& at) {
     return fmt::format("; the diverged state is kept in {}", checkpoints.write_diverged(at).string());
   };
@@ -78,11 +83,18 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   if (outcome.solution && communicator.is_root())
     for (const std::string& option : outcome.solution->unused_options)
       fmt::print(stderr, "warning: PETSc option {} was not used; check its name\n", option);
+  if (outcome.stopped && statics && checkpoints.stop_requested())
+    throw RunError(
+        fmt::format("stopped by a signal after {} iterations (relative residual {:.1e}); a static analysis keeps no "
+                    "checkpoint: run "
+                    "it again",
+                    outcome.solution->iterations, outcome.solution->relative_residual));
   if (outcome.stopped && checkpoints.stop_requested())
     throw RunError(fmt::format("stopped by a signal at step {} (t = {:.6g} s); go on with --restart {}", state.step,
                                state.time, (options.directory / "checkpoint.h5").string()));
   // An equilibrium may be the start of another run; other runs keep their end when they keep checkpoints at all.
-  const bool equilibrium = definition.analysis.type != model::AnalysisDefinition::Type::dynamic;
+  const bool equilibrium =
+      statics ? !outcome.stopped : definition.analysis.type != model::AnalysisDefinition::Type::dynamic;
   if (equilibrium || definition.output.checkpoint_every || definition.output.checkpoint_wall) checkpoints.write(state);
   const RunMemory memory{peak_memory(communicator), simulation.memory_before(), resident_memory(communicator)};
   io::write_summary(communicator, options.directory, summary(model, state, outcome, memory));

@@ -6,8 +6,8 @@
 
 namespace koshi::driver {
 
-/// Runs the simulation and writes its output directory, summary included (collective). Of `observer`, `poll` and
-/// `progress` are called too.
+/// Runs the simulation and writes its output directory, summary included (collective). Of `observer`, `poll`,
+/// `breathe` and `progress` are called too.
 Outcome run_simulation(Simulation& simulation, const RunOptions& options, const Observer& observer = {});
 
 /// Throws RunError when a quasi-static run did not come to rest; `remark` ends its text.

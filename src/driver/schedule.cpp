@@ -41,7 +41,7 @@ void check_step_count(const model::Definition& definition, double step) {
                                *analysis.duration, *analysis.duration / step, step, most, remedy));
 }
 
-Schedule::Schedule(const model::Definition& definition, double step)
+Schedule::Schedule(const model::Definition& definition, double step, bool keep_step)
     : quasi_static_(definition.analysis.type == model::AnalysisDefinition::Type::quasi_static),
       tolerance_(definition.analysis.tolerance),
       settled_(end_of_changes(definition)),
@@ -54,7 +54,9 @@ Schedule::Schedule(const model::Definition& definition, double step)
     // A step count that misses a whole number only by rounding is that number.
     const double steps = *definition.analysis.duration / step;
     last_step_ = std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(steps - 1e-9 * steps)));
-    dt_ = *definition.analysis.duration / static_cast<double>(last_step_);
+    // A step that fits stays what it is to the last bit, so that a longer run takes the same steps.
+    const double whole = static_cast<double>(last_step_);
+    if (!keep_step && std::abs(steps - whole) > 1e-9 * steps) dt_ = *definition.analysis.duration / whole;
     if (history_every_ == 0 && !quasi_static_) history_every_ = *definition.analysis.duration / 200;
   }
 }

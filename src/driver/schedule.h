@@ -15,8 +15,9 @@ void check_step_count(const model::Definition& definition, double step);
 
 class Schedule {
  public:
-  /// `step`: the largest step to use [s]; it is shortened a little so that the run ends exactly on its duration.
-  Schedule(const model::Definition& definition, double step);
+  /// `step`: the largest step to use [s]; unless it fits it is shortened a little so that the run ends exactly on its
+  /// duration. With `keep_step` it is used as it is, and the run ends with the first step that reaches its duration.
+  Schedule(const model::Definition& definition, double step, bool keep_step = false);
 
   double dt() const { return dt_; }
   std::int64_t last_step() const { return last_step_; }

@@ -76,14 +76,19 @@ Outcome Simulation::run_static(const Observer& observer, const std::vector<std::
   statics::StaticOptions options;
   options.tolerance = model_->definition.analysis.tolerance;
   options.petsc_options = petsc_options;
-  if (observer.progress)
-    options.progress = [&](int iteration, double residual) {
+  options.progress = [&](int iteration, double residual) {
+    if (observer.progress)
       observer.progress(std::clamp(std::log(residual) / std::log(options.tolerance), 0.0, 1.0) + 0.0,
                         fmt::format("iteration {}, residual {:.1e}", iteration, residual));
-    };
+    if (observer.breathe) observer.breathe();
+  };
+  options.stop = [&] { return observer.poll && observer.poll(*state_); };
   Outcome outcome;
   outcome.solution = statics::solve_static(*model_, *state_, options);
+  outcome.converged = outcome.solution->converged;
+  outcome.stopped = outcome.solution->stopped;
   outcome.measurement = meter_->measure(*state_, 0);
+  if (outcome.stopped) return outcome;
   if (observer.history) observer.history(outcome.measurement, *state_);
   if (observer.fields) observer.fields(*state_, 0);
   return outcome;
@@ -152,8 +157,9 @@ Outcome Simulation::run_explicit(const Observer& observer) {
   const bool quasi_static = analysis.type == Type::quasi_static;
   Outcome outcome;
   outcome.stable = stable_;
-  const Schedule schedule(model_->definition, choose_step(*outcome.stable));
-  outcome.time_step = schedule.dt();
+  const bool goes_on = state_->step > 0 && state_->time_step > 0;
+  const Schedule schedule(model_->definition, goes_on ? state_->time_step : choose_step(*outcome.stable), goes_on);
+  outcome.time_step = state_->time_step = schedule.dt();
 
   dynamics::ExplicitSolver solver(*model_, *state_, schedule.dt());
   outcome.measurement = meter_->measure(*state_, schedule.dt());
@@ -164,6 +170,7 @@ Outcome Simulation::run_explicit(const Observer& observer) {
   outcome.converged = !quasi_static;
   while (state_->step < schedule.last_step() && !outcome.stopped) {
     solver.step();
+    if (observer.breathe) observer.breathe();
     const std::int64_t step = state_->step;
     const bool last = step == schedule.last_step();
     if (schedule.is_check(step) || schedule.is_history(step) || last) {

@@ -22,7 +22,7 @@ struct Outcome {
   std::optional<mechanics::StableStep> stable;   ///< explicit analyses
   std::optional<statics::SolveReport> solution;  ///< static analyses
   bool converged = true;                         ///< quasi-static: the tolerance was reached
-  bool stopped = false;                          ///< the observer asked to stop
+  bool stopped = false;                          ///< the observer asked to stop; a static analysis has not converged
   double seconds = 0;                            ///< wall time of stepping or solving
   mechanics::Measurement measurement;            ///< at the end
 };
@@ -35,8 +35,11 @@ struct Observer {
   std::function<void(model::State&, double dt)> fields;
   /// Part of the work done (negative: unknown) and a few words.
   std::function<void(double, const std::string&)> progress;
-  /// Called every few steps; true stops the run.
+  /// Called every few steps, in a static analysis after each iteration; true stops the run. While iterations go on the
+  /// state is not defined; once stopped its displacements are those of the last iteration.
   std::function<bool(model::State&)> poll;
+  /// Called after every step or iteration, by each rank for itself; may throw to end the run.
+  std::function<void()> breathe;
   /// The run has diverged and is about to end with RunError; what it returns is added to the message.
   std::function<std::string(model::State&)> diverged;
 };
@@ -58,8 +61,8 @@ class Simulation {
   /// when the run diverges or does not converge.
   Outcome run(const Observer& observer, const std::vector<std::string>& petsc_options = {});
 
-  /// Explicit steps outside a run, whatever the type of the analysis (collective).
-  void step(std::int64_t count);
+  /// Explicit steps outside a run, whatever the type of the analysis (collective). `breathe` as in Observer.
+  void step(std::int64_t count, const std::function<void()>& breathe = {});
   /// The step of `step` [s] (collective): the one the analysis names, else its safety times the stable limit.
   double time_step();
   /// Balance and probes of the present state (collective).

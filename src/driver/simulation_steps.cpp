@@ -25,10 +25,13 @@ double Simulation::time_step() {
   return choose_step(*stable_);
 }
 
-void Simulation::step(std::int64_t count) {
+void Simulation::step(std::int64_t count, const std::function<void()>& breathe) {
   if (!stepper_) stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, state(), time_step());
-  for (std::int64_t s = 0; s < count; ++s) stepper_->step();
   if (count > 0) lag_ = time_step();
+  for (std::int64_t s = 0; s < count; ++s) {
+    stepper_->step();
+    if (breathe) breathe();
+  }
 }
 
 mechanics::Measurement Simulation::measure() { return meter_->measure(state(), lag_); }

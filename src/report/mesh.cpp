@@ -8,6 +8,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "io/field_reader.h"
 #include "io/report_block.h"
@@ -97,7 +98,29 @@ std::vector<float> positions(const io::FieldReader& reader, std::span<const std:
   return result;
 }
 
-std::string note(const Surface& surface, std::size_t shown, std::size_t samples) {
+// Fields that a sample lacks, as after a restart with other output.fields: taken out of those shown and out of the
+// samples before it. Adds the names of those that not all samples have.
+void keep_common(const io::FieldReader& reader, std::vector<io::FieldInfo>& fields, json& samples,
+                 std::set<std::string>& left_out) {
+  const std::vector<io::FieldInfo> there = reader.fields();
+  const auto same = [](const io::FieldInfo& field) {
+    return [&](const io::FieldInfo& other) {
+      return other.name == field.name && other.on_cells == field.on_cells &&
+             other.components.size() == field.components.size();
+    };
+  };
+  for (const io::FieldInfo& field : there)
+    if (std::ranges::none_of(fields, same(field))) left_out.insert(field.name);
+  std::erase_if(fields, [&](const io::FieldInfo& field) {
+    if (std::ranges::any_of(there, same(field))) return false;
+    left_out.insert(field.name);
+    for (json& sample : samples) sample["fields"].erase(field.name);
+    return true;
+  });
+}
+
+std::string note(const Surface& surface, std::size_t shown, std::size_t samples,
+                 const std::set<std::string>& left_out) {
   std::vector<std::string> parts;
   if (surface.stride > 1)
     parts.push_back(
@@ -106,6 +129,8 @@ std::string note(const Surface& surface, std::size_t shown, std::size_t samples)
                     surface.body_points, surface.points.size(), surface.stride));
   if (!surface.has_interior) parts.push_back("The inside is too large for this page: a cut shows the body hollow.");
   if (shown < samples) parts.push_back(fmt::format("{} of {} samples are shown.", shown, samples));
+  if (!left_out.empty())
+    parts.push_back(fmt::format("Not in all samples and left out: {}.", fmt::join(left_out, ", ")));
   return fmt::format("{}", fmt::join(parts, " "));
 }
 
@@ -114,7 +139,7 @@ std::string note(const Surface& surface, std::size_t shown, std::size_t samples)
 nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::span<const std::string> materials,
                                   const ReportLimits& limits) {
   const io::FieldReader first(samples.front().path);
-  const std::vector<io::FieldInfo> fields = first.fields();
+  std::vector<io::FieldInfo> fields = first.fields();
 
   // The inside is kept while the values of all samples stay small.
   const double node_bytes = bytes_of(fields, 1, 1) * static_cast<double>(samples.size());
@@ -138,6 +163,7 @@ nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::sp
   const double sample_bytes = bytes_of(fields, surface.points.size(), surface.cells.size());
   const auto chosen = chosen_samples(samples.size(), limits.sample_bytes / std::max(sample_bytes, 1.0));
   mesh["samples"] = json::array();
+  std::set<std::string> left_out;
   for (const std::size_t s : chosen) {
     std::optional<io::FieldReader> other;
     if (s > 0) other.emplace(samples[s].path);
@@ -145,6 +171,7 @@ nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::sp
     if (reader.cells() != first.cells())
       throw InputError(
           fmt::format("{} and {} are of different bodies", samples[s].path.native(), samples[0].path.native()));
+    keep_common(reader, fields, mesh["samples"], left_out);
     json block{{"time", samples[s].time}, {"fields", json::object()}};
     if (!samples[s].label.empty()) block["label"] = samples[s].label;
     for (const io::FieldInfo& field : fields)
@@ -154,7 +181,8 @@ nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::sp
       block["fields"]["material"] = std::move(material);
     mesh["samples"].push_back(std::move(block));
   }
-  if (const std::string text = note(surface, chosen.size(), samples.size()); !text.empty()) mesh["note"] = text;
+  if (const std::string text = note(surface, chosen.size(), samples.size(), left_out); !text.empty())
+    mesh["note"] = text;
   return mesh;
 }
 

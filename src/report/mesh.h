@@ -24,7 +24,7 @@ struct ReportLimits {
   double sample_bytes = 2e8;    ///< values of all samples
 };
 
-/// Samples of one body (at least one), in the order they are to be shown, with all fields that the first one has.
+/// Samples of one body (at least one), in the order they are to be shown, with the fields that all of them have.
 /// `materials`: names of the materials 1, 2, ...; they become a field where the body has several.
 /// Throws InputError when a sample cannot be read or belongs to another body.
 nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::span<const std::string> materials,

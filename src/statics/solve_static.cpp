@@ -37,6 +37,7 @@ struct Context {
   SolveReport& report;
   double reference = 0;
   std::exception_ptr error;
+  bool stopped = false;
 };
 
 template <class F>
@@ -79,11 +80,14 @@ PetscErrorCode apply_preconditioner(PC pc, Vec r, Vec z) {
 
 PetscErrorCode monitor(KSP, PetscInt iteration, PetscReal residual, void* data) {
   Context& context = *static_cast<Context*>(data);
-  return guarded(context, [&] {
+  const PetscErrorCode code = guarded(context, [&] {
     const double relative = context.reference > 0 ? residual / context.reference : 0;
     context.report.residual_history.push_back(relative);
     if (context.options.progress) context.options.progress(static_cast<int>(iteration), relative);
+    context.stopped = context.options.stop && context.options.stop();
   });
+  // An error is what ends the iterations from here; the solution so far stays in its vector.
+  return context.stopped ? PETSC_ERR_USER : code;
 }
 
 // The residuals of at most a dozen iterations, the last one among them.
@@ -138,7 +142,7 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   report.unknowns = model.node_count * model.components() - model.motion_count;
 
   const MPI_Comm comm = MPI_Comm_f2c(model.communicator.handle());
-  Context context{equilibrium, preconditioner, options, report, 0, nullptr};
+  Context context{equilibrium, preconditioner, options, report, 0, nullptr, false};
   const auto size = static_cast<PetscInt>(equilibrium.size());
   PetscMat matrix;
   check(MatCreateShell(comm, size, size, PETSC_DETERMINE, PETSC_DETERMINE, &context, matrix.create()));
@@ -169,7 +173,7 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
 
   const PetscErrorCode code = KSPSolve(solver, b, x);
   if (context.error) std::rethrow_exception(context.error);
-  check(code);
+  if (!context.stopped) check(code);
   report.solve_seconds = steady_seconds() - start - report.setup_seconds;
 
   PetscInt iterations = 0;
@@ -178,10 +182,11 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   check(KSPGetConvergedReason(solver, &reason));
   report.iterations = static_cast<int>(iterations);
   report.relative_residual = report.residual_history.empty() ? 0 : report.residual_history.back();
-  report.converged = reason > 0;
-  report.reason = KSPConvergedReasons[reason];
+  report.stopped = context.stopped;
+  report.converged = reason > 0 && !report.stopped;
+  report.reason = report.stopped ? "STOPPED" : KSPConvergedReasons[reason];
   report.unused_options = session.unused_options();
-  if (!report.converged)
+  if (!report.converged && !report.stopped)
     throw RunError(fmt::format(
         "no equilibrium found: {} after {} iterations; relative residual by iteration: {}; {}{}", report.reason,
         report.iterations, history_text(report.residual_history), hint(reason, report.residual_history),

@@ -173,6 +173,72 @@ TEST_F(Continuation, AFailedCheckpointLeavesTheOlderOne) {
                                      "`poissons_ratio = 0.1` here"));
 }
 
+// 80 us are 200 and 320 us 800 steps of 0.4 us: a run that is given more time takes the steps of one that had it from
+// the start, byte for byte, and one that is given less is refused.
+TEST_F(Continuation, AnotherDurationKeepsTheStep) {
+  const std::string run =
+      "run bar.toml --quiet --set analysis.type=dynamic --set analysis.time_step=4e-7 --set "
+      "output.checkpoint_every=1 --set output.history_every=1e-5 --set analysis.duration=";
+  ASSERT_EQ(koshi(run + "3.2e-4 --out whole").code, 0);
+  ASSERT_EQ(koshi(run + "8e-5 --out out").code, 0);
+  const Ended shorter = koshi(run + "4e-5 --out out --restart out");
+  EXPECT_EQ(shorter.code, 2);
+  EXPECT_THAT(shorter.error, HasSubstr("out is of t = 8e-05 s, after the end of a run of 4e-05 s; give a duration of "
+                                       "more than 8e-05 s"));
+  ASSERT_EQ(koshi(run + "3.2e-4 --out out --restart out").code, 0);
+  for (const char* file : {"history.csv", "checkpoint.h5"}) {
+    const std::string whole = test::read_file(directory_ / "whole" / file);
+    EXPECT_GT(whole.size(), 1000U) << file;
+    EXPECT_TRUE(test::read_file(directory_ / "out" / file) == whole) << file;
+  }
+
+  // An automatic step divides the first duration, not the second: it is kept all the same, and the end is passed by
+  // less than a step.
+  const std::string automatic =
+      "run bar.toml --quiet --set analysis.type=dynamic --set output.checkpoint_every=1 --set "
+      "analysis.duration=";
+  const auto end = [&] { return nlohmann::json::parse(test::read_file(directory_ / "auto/summary.json"))["analysis"]; };
+  ASSERT_EQ(koshi(automatic + "8e-5 --out auto").code, 0);
+  const double step = end()["time_step"].get<double>();
+  EXPECT_NEAR(end()["time"].get<double>(), 8e-5, 1e-18);
+  ASSERT_EQ(koshi(automatic + "1.1234e-4 --out auto --restart auto").code, 0);
+  EXPECT_EQ(end()["time_step"].get<double>(), step);
+  EXPECT_GE(end()["time"].get<double>(), 1.1234e-4);
+  EXPECT_LT(end()["time"].get<double>(), 1.1234e-4 + step);
+}
+
+TEST_F(Continuation, AnEquilibriumLeavesNothingToDo) {
+  ASSERT_EQ(koshi("run bar.toml --out out --quiet").code, 0);
+  const std::string summary = test::read_file(directory_ / "out/summary.json");
+  const Ended ended = koshi("run bar.toml --out out --quiet --restart out");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_EQ(ended.error,
+            "error: nothing is left to do: out holds the equilibrium of this case; without --restart it is "
+            "computed anew\n");
+  EXPECT_EQ(test::read_file(directory_ / "out/summary.json"), summary);
+}
+
+// Fields may change at a restart: the page shows those that all samples have, and says which are left out.
+TEST_F(Continuation, OtherFieldsAreAcceptedToTheEnd) {
+  const std::string run =
+      "run bar.toml --quiet --set analysis.type=dynamic --set output.checkpoint_every=1 --set "
+      "output.every=4e-5 --set output.report=true --out out --set ";
+  int checked = 0;
+  for (const char* first : {"[]", "[\"displacement\", \"stress\"]", "[\"velocity\"]"})
+    for (const char* second : {"[]", "[\"displacement\"]", "[\"stress\", \"energy\"]"}) {
+      ASSERT_EQ(koshi(run + "analysis.duration=8e-5 --set 'output.fields=" + first + "'").code, 0);
+      const Ended ended = koshi(run + "analysis.duration=1.6e-4 --restart out --set 'output.fields=" + second + "'");
+      EXPECT_EQ(ended.code, 0) << first << " " << second << ": " << ended.error;
+      EXPECT_TRUE(fs::exists(directory_ / "out/report.html"));
+      if (std::string(first).size() > 20 && std::string(second).size() > 20)
+        EXPECT_THAT(test::read_file(directory_ / "out/report.html"),
+                    HasSubstr("Not in all samples and left out: displacement, energy."));
+      fs::remove_all(directory_ / "out");
+      ++checked;
+    }
+  EXPECT_EQ(checked, 9);
+}
+
 // The page is asked for at the end: whether there is one is known at the start.
 TEST_F(Continuation, AReportWithoutItsPageIsRefusedAtTheStart) {
   const fs::path program = directory_ / "koshi";  // away from the page beside the program
