@@ -43,7 +43,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   } else if (!definition.analysis.start_from.empty()) {
     start_from(std::filesystem::path(definition.directory) / definition.analysis.start_from, model, state);
   }
-  io::make_output_directory(communicator, options.directory);
+  const io::OutputDirectory held(communicator, options.directory);
   io::write_resolved(communicator, options.directory,
                      io::resolved_toml(io::with_cells_in_file(communicator, definition, options.directory)));
 

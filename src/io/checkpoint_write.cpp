@@ -158,6 +158,9 @@ void write_checkpoint(const fs::path& directory, const model::Model& model, cons
   std::vector<NamedValues> all{{displacement_name, &state.displacement}, {velocity_name, &state.velocity}};
   for (const CheckpointField& field : fields) all.push_back({field.name, field.values});
   const std::int64_t bytes = expected_bytes(model, info, all);
+  collectively(communicator, [&] {
+    if (communicator.is_root()) fresh_part_of(directory / "checkpoint.h5");
+  });
   const auto reserve_space = [&] {
     collectively(communicator, [&] {
       if (communicator.is_root()) reserve(part, bytes);

@@ -5,11 +5,11 @@
 #include <vtkXMLUtilities.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "base/collective.h"
 #include "io/files.h"
 #include "io/image.h"
+#include "io/sample_names.h"
 #include "lattice/halo.h"
 #include "lattice/partition.h"
 
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* collection_name = "fields.pvd";
 
-fs::path sample_stem(std::size_t number) { return fs::path("fields") / fmt::format("sample_{:06}", number); }
+fs::path sample_stem(std::size_t number) { return fs::path("fields") / sample_name(number); }
 
 std::string piece_name(int rank) { return fmt::format("piece_{}.vti", rank); }
 
@@ -138,12 +138,10 @@ void FieldWriter::write_collection() const {
 }
 
 void FieldWriter::remove_samples_from(std::size_t number) const {
-  static const std::regex pattern(R"(sample_(\d+)(|\.part|\.vti|\.vti\.part|\.pvti|\.pvti\.part))");
   std::vector<fs::path> stale;
   for (const auto& entry : fs::directory_iterator(directory_ / "fields")) {
-    std::smatch match;
-    const std::string name = entry.path().filename().native();
-    if (std::regex_match(name, match, pattern) && std::stoull(match[1]) >= number) stale.push_back(entry.path());
+    const auto found = sample_number(entry.path().filename().native());
+    if (found && *found >= number) stale.push_back(entry.path());
   }
   for (const fs::path& path : stale) fs::remove_all(path);
 }

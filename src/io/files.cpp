@@ -42,12 +42,18 @@ bool write_all(int descriptor, std::string_view content) {
 
 std::filesystem::path part_of(const std::filesystem::path& path) { return path.native() + ".part"; }
 
+std::filesystem::path fresh_part_of(const std::filesystem::path& path) {
+  std::error_code ignored;
+  std::filesystem::remove(part_of(path), ignored);
+  return part_of(path);
+}
+
 std::string system_reason(int error_number) { return std::generic_category().message(error_number); }
 
 std::error_code try_replace_file(const std::filesystem::path& path, std::string_view content) {
-  const std::filesystem::path part = part_of(path);
+  const std::filesystem::path part = fresh_part_of(path);
   bool done = false;
-  if (const Descriptor file(part, O_WRONLY | O_CREAT | O_TRUNC); file)
+  if (const Descriptor file(part, O_WRONLY | O_CREAT | O_EXCL); file)
     done = write_all(file.value(), content) && ::fsync(file.value()) == 0;
   if (done && ::rename(part.c_str(), path.c_str()) == 0) return {};
   const std::error_code error(errno, std::generic_category());

@@ -11,6 +11,10 @@ namespace koshi::io {
 /// Name under which a file is written before it gets its own: `path` with ".part" added.
 std::filesystem::path part_of(const std::filesystem::path& path);
 
+/// The same, with nothing there any more that was left or put there, so that what is written goes into a file of its
+/// own: a link is removed and not followed.
+std::filesystem::path fresh_part_of(const std::filesystem::path& path);
+
 /// Text of a system error, e.g. "No space left on device".
 std::string system_reason(int error_number);
 

@@ -149,7 +149,7 @@ void write_image(const std::filesystem::path& path, vtkImageData* image) {
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetInputData(image);
-  const std::filesystem::path part = part_of(path);
+  const std::filesystem::path part = fresh_part_of(path);
   writer->SetFileName(part.c_str());
 
   // Observed errors are not printed by VTK; the first one's system error is the reason.

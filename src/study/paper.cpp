@@ -99,7 +99,7 @@ PaperCurve theory() {
 }  // namespace
 
 void run_paper(const std::filesystem::path& directory, bool quiet, const Communicator& communicator) {
-  io::make_output_directory(communicator, directory);
+  const io::OutputDirectory held(communicator, directory);
   PaperStudy study;
   for (std::size_t c = 0; c < cells.size(); ++c) add_uniaxial(c, directory, quiet, communicator, study);
   for (const CellType cell : cells) add_cantilever(cell, false, directory, quiet, communicator, study);
