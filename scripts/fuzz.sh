@@ -14,6 +14,6 @@ for source in tests/fuzz/fuzz_*.cpp; do
   found=out/fuzz/$target # new inputs and, if any, the crashing one
   mkdir -p "$found"
   echo "$target: $seconds s"
-  "build/fuzz/tests/fuzz/$target" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=4096 \
+  "build/fuzz/tests/fuzz/$target" -seed=1 -max_total_time="$seconds" -timeout=300 -rss_limit_mb=4096 \
     -artifact_prefix="$found/" -print_final_stats=1 "$found" "tests/fuzz/corpus/${target#fuzz_}"
 done
