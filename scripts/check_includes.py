@@ -3,14 +3,17 @@
 
 usage: check_includes.py [ROOT]
 
-Prints `file:line: rule` for each include that breaks a rule and exits 1 if there is any.
+Prints `file:line: rule` for each include that breaks a rule, and where the page's drawing and table show other rooms or
+arrows than ARROWS; exits 1 if there is any of it.
 """
 
 import re
 import sys
 from pathlib import Path
 
-# Room -> rooms it stands on. Includes are allowed downwards, through any number of arrows.
+PAGE = "docs/development/architecture.md"
+
+# Room -> rooms it stands on. Includes are allowed downwards, through any number of arrows. The page draws them.
 ARROWS = {
     "base": [],
     "lattice": ["base"],
@@ -115,9 +118,26 @@ def broken_rule(root, path, bracket, target):
     return None
 
 
+def page_problems(root):
+    """Where the page's drawing and table of the rooms differ from ARROWS, as text."""
+    page = (root / PAGE).read_text() if (root / PAGE).is_file() else ""
+    drawing = re.search(r"```\n(.*?)```", page, re.DOTALL)
+    drawn = set(re.findall(r"\w+", drawing[1])) if drawing else set()
+    rows = dict(re.findall(r"^\| (\w+) \| ([\w, ]+) \|$", page, re.MULTILINE))
+    problems = []
+    for room, lower in ARROWS.items():
+        wanted = ", ".join(lower) or "nothing"
+        if rows.get(room) != wanted:
+            problems.append(f"{PAGE}:1: the table of rooms needs the row | {room} | {wanted} |")
+        if room not in drawn:
+            problems.append(f"{PAGE}:1: the drawing lacks the room {room}")
+    problems += [f"{PAGE}:1: the table has a room {room}, ARROWS has not" for room in rows.keys() - ARROWS.keys() - {"room"}]
+    return problems
+
+
 def check(root):
     """All violations below `root` as text, and the number of includes looked at."""
-    problems, count = [], 0
+    problems, count = page_problems(root), 0
     files = [f for top in ("include", "src", "apps", "python") for f in sorted((root / top).rglob("*.*"))]
     for file in files:
         if file.suffix not in (".h", ".cpp"):

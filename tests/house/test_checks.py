@@ -8,6 +8,8 @@ import unittest
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[2] / "scripts"
+sys.path.insert(0, str(SCRIPTS))
+from check_includes import ARROWS, PAGE  # noqa: E402
 
 
 def run(script, files):
@@ -21,7 +23,11 @@ def run(script, files):
         return result.returncode, result.stdout
 
 
+DRAWING = "```\n" + " - ".join(ARROWS) + "\n```\n"
+TABLE = "".join(f"| {room} | {', '.join(lower) or 'nothing'} |\n" for room, lower in ARROWS.items())
+
 SOUND = {
+    PAGE: DRAWING + "| room | stands on |\n|---|---|\n" + TABLE,
     "include/koshi/error.h": "#include <string>\n",
     "include/koshi/lattice.h": '#include "koshi/error.h"\n',
     "src/base/communicator.cpp": '#include <mpi.h>\n#include "koshi/error.h"\n',
@@ -73,6 +79,20 @@ class Includes(unittest.TestCase):
                 self.assertRegex(output, rf"^{file}:{line}: .*{re.escape(message)}")
                 self.assertIn(" 1 broken", output)
 
+    def test_page_must_show_the_arrows(self):
+        for page, message in [
+            (SOUND[PAGE].replace("| base | nothing |\n", ""), "needs the row | base | nothing |"),
+            (SOUND[PAGE].replace("| io | model |", "| io | mechanics |"), "needs the row | io | model |"),
+            (SOUND[PAGE] + "| cellar | base |\n", "the table has a room cellar"),
+            (SOUND[PAGE].replace("lattice -", "-", 1), "the drawing lacks the room lattice"),
+        ]:
+            with self.subTest(message=message):
+                code, output = run("check_includes.py", SOUND | {PAGE: page})
+                self.assertEqual(code, 1)
+                self.assertIn(f"{PAGE}:1: ", output)
+                self.assertIn(message, output)
+                self.assertIn(" 1 broken", output)
+
     def test_empty_tree_fails(self):
         self.assertEqual(run("check_includes.py", {})[0], 1)
 
@@ -87,6 +107,28 @@ class Size(unittest.TestCase):
 
     def test_empty_tree_fails(self):
         self.assertEqual(run("check_size.py", {})[0], 1)
+
+
+class Packages(unittest.TestCase):
+    def test_every_package_has_a_reason_and_stands_in_a_group(self):
+        groups = {}
+        for number, line in enumerate((SCRIPTS.parent / "packages.txt").read_text().splitlines(), 1):
+            if group := re.match(r"# Group (\w+): ", line):
+                names = groups.setdefault(group[1], [])
+            elif line and not line.startswith("#"):
+                self.assertRegex(line, r"^[a-z0-9.+-]+ +# \S", f"packages.txt:{number}")
+                names.append(line.split()[0])
+        self.assertEqual(list(groups), ["run", "page", "test", "docs"])
+        everything = [name for names in groups.values() for name in names]
+        self.assertEqual(len(everything), len(set(everything)))
+        self.assertGreater(len(everything), 40)
+        # What only tests and documentation need stays out of what the demo installs.
+        for heavy in ("chromium", "doxygen", "mkdocs", "python3-matplotlib", "clang-14"):
+            self.assertNotIn(heavy, groups["run"] + groups["page"])
+
+    def test_setup_knows_its_groups(self):
+        result = subprocess.run([SCRIPTS / "setup.sh", "cellar"], capture_output=True, text=True)
+        self.assertEqual((result.returncode, result.stderr), (2, "setup: packages.txt has no group cellar\n"))
 
 
 if __name__ == "__main__":
