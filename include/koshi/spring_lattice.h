@@ -34,10 +34,10 @@ struct SpringLattice {
   /// hierarchy from it when it begins. Shared springs only.
   lattice::Field<float> factor;
   std::vector<material::Springs> springs;  ///< by material index; entry 0 (empty) is zero
-  /// Plain springs only: stiffness of forward bonds, component 2 slot: kn, 2 slot + 1: kt [N/m], and the number of
-  /// solid cells around them, component slot; known on owned and ghost nodes.
+  /// Plain springs only, known on owned and ghost nodes: stiffness of forward bonds, component 2 slot: kn [N/m],
+  /// 2 slot + 1: kt [N/m].
   lattice::Field<double> bond;
-  lattice::Field<std::uint8_t> bond_cells;
+  lattice::Field<std::uint8_t> bond_cells;  ///< the same: solid cells around forward bonds, component slot
 
   /// Unknowns per node: three displacements, and three rotations with rotational kinematics.
   int components() const { return kinematics == material::Kinematics::rotational ? 6 : 3; }

@@ -43,8 +43,7 @@ bool write_all(int descriptor, std::string_view content) {
 std::filesystem::path part_of(const std::filesystem::path& path) { return path.native() + ".part"; }
 
 std::filesystem::path fresh_part_of(const std::filesystem::path& path) {
-  std::error_code ignored;
-  std::filesystem::remove(part_of(path), ignored);
+  ::unlink(part_of(path).c_str());  // a directory stays, and is an error when the file is opened
   return part_of(path);
 }
 
