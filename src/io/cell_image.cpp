@@ -2,100 +2,36 @@
 
 #include <fmt/format.h>
 #include <vtkCellData.h>
-#include <vtkDataArray.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
-#include <vtkMetaImageReader.h>
 #include <vtkNew.h>
-#include <vtkNrrdReader.h>
-#include <vtkPointData.h>
 #include <vtkUnsignedShortArray.h>
-#include <vtkXMLImageDataReader.h>
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <map>
-#include <optional>
+#include <memory>
 #include <set>
 
 #include "base/collective.h"
 #include "io/image.h"
-#include "io/npy.h"
-#include "io/vtk_errors.h"
+#include "io/voxels/formats.h"
 #include "model/check.h"
 #include "model/regions.h"
 
 namespace koshi::io {
 namespace {
 
-template <class Reader>
-vtkSmartPointer<vtkImageData> read_with(const std::filesystem::path& file, const char* format) {
-  vtkNew<Reader> reader;
-  const VtkErrors errors;
-  if (!reader->CanReadFile(file.c_str())) throw InputError(fmt::format("is not {}", format));
-  reader->SetFileName(file.c_str());
-  reader->Update();
-  if (!errors.first().empty()) throw InputError(fmt::format("cannot be read as {}: {}", format, errors.first()));
-  if (reader->GetErrorCode() != 0) throw InputError(fmt::format("cannot be read as {}; it may be cut short", format));
-  return reader->GetOutput();
-}
-
-// VTK's reader takes the bytes of an encoding it does not know for the values.
-void check_nrrd_encoding(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  const std::string key = "encoding:";
-  for (std::string line; std::getline(stream, line) && !line.empty() && line != "\r";) {
-    if (!line.starts_with(key)) continue;
-    const auto first = line.find_first_not_of(' ', key.size()), last = line.find_last_not_of(" \r");
-    const std::string encoding = first == std::string::npos ? "" : line.substr(first, last + 1 - first);
-    if (encoding != "raw" && encoding != "gzip" && encoding != "gz")
-      throw InputError(fmt::format("has the encoding \"{}\"; save it as \"raw\" or \"gzip\"", encoding));
-  }
-}
-
-CellImage image_of(vtkDataArray* values, const Int3& cells, bool fractions) {
-  if (values == nullptr || values->GetNumberOfTuples() != cells[0] * cells[1] * cells[2])
-    throw InputError("holds no values");
-  if (values->GetNumberOfComponents() != 1)
-    throw InputError(fmt::format("holds {} values a cell; expected one", values->GetNumberOfComponents()));
-  if (!fractions && (values->GetDataType() == VTK_FLOAT || values->GetDataType() == VTK_DOUBLE))
-    throw InputError(fmt::format("holds values of the type {}, not whole numbers; convert it to unsigned char",
-                                 values->GetDataTypeAsString()));
-  return {cells, {1, cells[0], cells[0] * cells[1]}, [kept = vtkSmartPointer(values)](std::int64_t i) {
-            return kept->GetComponent(i, 0);
-          }};
-}
-
-CellImage image_of_points(vtkImageData* image, bool fractions) {
-  const int* points = image->GetDimensions();
-  vtkDataArray* values = image->GetPointData()->GetScalars();
-  const int components = values == nullptr ? 1 : values->GetNumberOfComponents();
-  // VTK takes a short first axis of an NRRD file for components; in memory they lie like an axis.
-  if (components > 1 && points[2] == 1) {
-    vtkSmartPointer<vtkDataArray> axis = vtk::TakeSmartPointer(values->NewInstance());
-    axis->SetVoidArray(values->GetVoidPointer(0), values->GetNumberOfValues(), 1);
-    CellImage folded = image_of(axis, {components, points[0], points[1]}, fractions);
-    return {folded.cells, folded.stride,
-            [kept = vtkSmartPointer(image), value = folded.value](std::int64_t i) { return value(i); }};
-  }
-  return image_of(image->GetPointData()->GetScalars(), {points[0], points[1], points[2]}, fractions);
-}
-
-// A file for ParaView may carry several arrays: the one of this name, as Koshi writes it, or the only one.
-CellImage image_of_cells(vtkImageData* image, const char* name, bool fractions) {
-  vtkCellData* data = image->GetCellData();
-  if (data->GetNumberOfArrays() == 0 && image->GetPointData()->GetNumberOfArrays() != 0)
-    throw InputError(
-        "holds values on points, but a cell needs one value; make them cell data (ParaView: \"Point Data to Cell "
-        "Data\", with categorical data on)");
-  vtkDataArray* values = data->GetArray(name);
-  if (values == nullptr && data->GetNumberOfArrays() == 1) values = data->GetArray(0);
-  if (values == nullptr && data->GetNumberOfArrays() > 1)
-    throw InputError(
-        fmt::format("holds {} arrays on cells; call the right one \"{}\"", data->GetNumberOfArrays(), name));
-  Int3 cells;
-  for (int a = 0; a < 3; ++a) cells[a] = std::max(image->GetDimensions()[a] - 1, 1);
-  return image_of(values, cells, fractions);
+// A cell is a cube: an image whose voxels are none would be squeezed.
+void check_cubes(const VoxelImage& image) {
+  if (!image.voxel) return;
+  const Vec3& side = *image.voxel;
+  const auto [least, greatest] = std::minmax({side[0], side[1], side[2]});
+  if (!(least > 0) || !std::isfinite(greatest) || greatest <= 1.001 * least) return;
+  throw InputError(fmt::format(
+      "has voxels of {:.6g} x {:.6g} x {:.6g}, but cells are cubes; resample it to voxels of one side first, such as "
+      "with scipy.ndimage.zoom by {:.6g}, {:.6g}, {:.6g} along x, y, z (order = 0)",
+      side[0], side[1], side[2], side[0] / least, side[1] / least, side[2] / least));
 }
 
 std::string list_of(const std::set<double>& values) {
@@ -107,19 +43,17 @@ std::string list_of(const std::set<double>& values) {
 
 CellImage read_image(const std::filesystem::path& file, const char* name, bool fractions) {
   const std::string format = file.extension().string();
-  if (format == ".vti")
-    return image_of_cells(read_with<vtkXMLImageDataReader>(file, "a VTK image (.vti)"), name, fractions);
-  if (format == ".nrrd") check_nrrd_encoding(file);
-  if (format == ".nrrd") return image_of_points(read_with<vtkNrrdReader>(file, "an NRRD image"), fractions);
-  if (format == ".mha" || format == ".mhd")
-    return image_of_points(read_with<vtkMetaImageReader>(file, "a MetaImage"), fractions);
-  const NpyArray array = read_npy(file, fractions);
-  CellImage image = image_of_points(array.image, fractions);
-  if (array.fortran_order) {
-    std::swap(image.cells[0], image.cells[2]);
-    std::swap(image.stride[0], image.stride[2]);
-  }
-  return image;
+  const auto image = std::make_shared<VoxelImage>(format == ".vti"                         ? read_vti_image(file, name)
+                                                  : format == ".nrrd" || format == ".nhdr" ? read_nrrd(file)
+                                                  : format == ".npy"                       ? read_npy(file)
+                                                                                           : read_metaimage(file));
+  check_cubes(*image);
+  if (!fractions && !is_whole(image->type))
+    throw InputError(fmt::format("holds values of the type {}, not whole numbers; convert it to uint8, say",
+                                 name_of(image->type)));
+  return {image->size, image->stride, [image](std::int64_t i) {
+            return value_at(image->bytes, image->type, static_cast<std::size_t>(i));
+          }};
 }
 
 // Calls f(value) for every cell, x fastest.

@@ -10,6 +10,7 @@
 
 #include "base/collective.h"
 #include "io/files.h"
+#include "io/input_file.h"
 
 namespace koshi::io {
 namespace {
@@ -76,11 +77,14 @@ std::string entry(const std::string& seal, const std::string& key) {
 
 // The seal of a file that seems to be a checkpoint of this format and size.
 std::string read_seal(const fs::path& file, std::int64_t& bytes) {
-  std::ifstream in(file, std::ios::binary);
-  if (!in) throw InputError(fmt::format("cannot read checkpoint {}: {}", file.native(), system_reason(errno)));
-  std::string seal(seal_size, '\0');
-  in.read(seal.data(), seal_size);
-  seal.resize(static_cast<std::size_t>(in.gcount()));
+  std::string seal;
+  try {
+    const InputFile opened(file);
+    seal = opened.text(0, seal_size);
+    bytes = static_cast<std::int64_t>(opened.size());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("checkpoint {} {}", file.native(), error.message()));
+  }
   const std::string name = file.native();
   if (seal.starts_with("\x89HDF\r\n\x1a\n"))
     throw InputError(fmt::format("{} is an HDF5 file, but no checkpoint of Koshi", name));
@@ -89,7 +93,6 @@ std::string read_seal(const fs::path& file, std::int64_t& bytes) {
   if (format != std::to_string(checkpoint_format))
     throw InputError(fmt::format("{} has checkpoint format {}, this Koshi reads format {}; go on with Koshi {}", name,
                                  format, checkpoint_format, entry(seal, "koshi")));
-  bytes = static_cast<std::int64_t>(fs::file_size(file));
   if (const std::string wanted = entry(seal, "bytes"); wanted != std::to_string(bytes))
     throw InputError(fmt::format("checkpoint {} is cut short: {} of {} bytes", name, bytes, wanted));
   return seal;

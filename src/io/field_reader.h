@@ -8,9 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "koshi/vector3.h"
-
-class vtkImageData;
+#include "io/vti_file.h"
 
 namespace koshi::io {
 
@@ -43,15 +41,23 @@ class FieldReader {
   std::vector<FieldInfo> fields() const;  ///< all but the material
 
   /// Material index of every cell, 0 = empty.
-  std::span<const std::uint16_t> material() const;
+  std::span<const std::uint16_t> material() const { return material_; }
 
   /// Values of a field at points (or cells, for a field on cells): all components of the first, then of the second ...
   /// Throws InputError when the sample has no such field.
   std::vector<float> gather(const FieldInfo& field, std::span<const std::int64_t> indices) const;
 
  private:
+  void open_whole();
+  void open_pieces();
+  void read_material();
+
   std::filesystem::path path_;
-  std::shared_ptr<vtkImageData> image_;
+  std::vector<std::shared_ptr<VtiFile>> pieces_;  ///< one for a .vti file
+  Extent extent_{};                               ///< of the whole
+  Vec3 origin_{};
+  double spacing_ = 0;
+  std::vector<std::uint16_t> material_;
 };
 
 }  // namespace koshi::io

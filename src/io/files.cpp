@@ -7,6 +7,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "io/input_file.h"
 #include "koshi/error.h"
 
 namespace koshi::io {
@@ -66,15 +67,12 @@ void replace_file(const std::filesystem::path& path, std::string_view content) {
 }
 
 std::string read_file(const std::filesystem::path& path) {
-  std::string content;
-  ssize_t got = -1;
-  if (const Descriptor file(path, O_RDONLY); file) {
-    std::string block(std::size_t{1} << 16, '\0');
-    while ((got = ::read(file.value(), block.data(), block.size())) > 0)
-      content.append(block, 0, static_cast<std::size_t>(got));
+  try {
+    const InputFile file(path);
+    return file.text(0, file.size());
+  } catch (const InputError& error) {
+    throw InputError(fmt::format("{} {}", path.native(), error.message()));
   }
-  if (got < 0) throw InputError(fmt::format("cannot read {}: {}", path.native(), system_reason(errno)));
-  return content;
 }
 
 void flush_to_disk(const std::filesystem::path& path) {

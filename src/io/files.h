@@ -24,7 +24,7 @@ std::string system_reason(int error_number);
 std::error_code try_replace_file(const std::filesystem::path& path, std::string_view content);
 void replace_file(const std::filesystem::path& path, std::string_view content);
 
-/// Content of a file. Throws InputError with the system's reason.
+/// Content of a regular file. Throws InputError with the reason.
 std::string read_file(const std::filesystem::path& path);
 
 /// Flushes a file or a directory (its entries: a rename is safe only then) to the disk. Throws RunError.

@@ -1,9 +1,7 @@
 // The files an input names: images of cells and surfaces.
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <new>
 
 #include "io/cell_image.h"
 #include "io/surface.h"
@@ -21,13 +19,13 @@ auto load(const model::Definition& definition, const std::string& key, const std
   const auto fail = [&](const std::string& message) {
     model::Checker(definition).fail(key, fmt::format("the file \"{}\" {}", path.lexically_normal().string(), message));
   };
-  errno = 0;
-  if (!std::ifstream(path)) fail(fmt::format("cannot be opened ({})", std::strerror(errno)));
-  if (std::filesystem::is_directory(path)) fail("is a folder");
   try {
     return read(path);
   } catch (const InputError& error) {
     fail(error.message());
+    throw;
+  } catch (const std::bad_alloc&) {
+    fail("needs more memory than there is");
     throw;
   }
 }

@@ -81,6 +81,19 @@ fs::path find_template() {
                              places.back().native()));
 }
 
+// What the page takes from the summary; json::exception when a part of it has another form than Koshi gives it.
+void add_summary(json& data, const model::Definition& definition, const json& summary) {
+  data["facts"] = facts(definition, summary);
+  const SpringTables springs = spring_tables(definition, summary);
+  data["springs"] = springs.springs;
+  data["achieved"] = springs.achieved;
+  data["probes"] = probe_tables(definition, summary);
+  data["timing"] = run_tables(summary);
+  const json residuals = summary.value(json::json_pointer("/analysis/residual_history"), json());
+  if (residuals.is_array() && residuals.size() > 1)
+    data["convergence"] = {{"residuals", residuals}, {"tolerance", definition.analysis.tolerance}};
+}
+
 }  // namespace
 
 nlohmann::ordered_json report_data(const fs::path& directory) {
@@ -88,6 +101,7 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
   if (!fs::exists(input))
     throw InputError(fmt::format("{} holds no results: resolved.toml is missing; give the --out directory of a run",
                                  directory.native()));
+  const std::string case_text = io::read_file(input);
   const model::Definition definition = io::read_case(input);
   const json summary = read_summary(directory / "summary.json");
 
@@ -95,23 +109,18 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
             {"version", KOSHI_VERSION},
             {"title", definition.title.empty() ? directory.filename().native() : definition.title},
             {"subtitle", report_subtitle(definition)},
-            {"facts", facts(definition, summary)},
-            {"case", io::read_file(input)},
+            {"case", case_text},
             {"summary", summary},
             {"materials", materials_table(definition)},
             {"conditions", conditions_table(definition)}};
-  const SpringTables springs = spring_tables(definition, summary);
-  data["springs"] = springs.springs;
-  data["achieved"] = springs.achieved;
-  data["probes"] = probe_tables(definition, summary);
-  data["timing"] = run_tables(summary);
+  try {
+    add_summary(data, definition, summary);
+  } catch (const json::exception&) {
+    throw InputError(fmt::format("{} is no summary as Koshi writes it", (directory / "summary.json").native()));
+  }
 
   if (const fs::path history = directory / "history.csv"; fs::exists(history))
     data["history"] = history_block(io::read_history(history), definition);
-  const json residuals = summary.value(json::json_pointer("/analysis/residual_history"), json());
-  if (residuals.is_array() && residuals.size() > 1)
-    data["convergence"] = {{"residuals", residuals}, {"tolerance", definition.analysis.tolerance}};
-
   std::vector<ReportSample> samples;
   for (const auto& [time, path] : io::list_samples(directory)) samples.push_back({path, time, {}});
   std::vector<std::string> materials;

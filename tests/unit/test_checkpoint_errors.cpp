@@ -55,7 +55,7 @@ TEST_F(CheckpointErrors, WholeFileIsAccepted) {
 TEST_F(CheckpointErrors, MissingFile) {
   fs::remove(file);
   EXPECT_THAT([&] { read_checkpoint(file, model, case_text, state); },
-              ThrowsMessage<InputError>(AllOf(HasSubstr("cannot read checkpoint " + file.native()),
+              ThrowsMessage<InputError>(AllOf(HasSubstr("checkpoint " + file.native() + " cannot be opened"),
                                               HasSubstr("No such file or directory"), Not(HasSubstr("try")))));
 }
 

@@ -99,7 +99,7 @@ TEST_F(FactorsTest, WhatIsWrongIsSaidAtTheKey) {
                   HasSubstr("case.toml:11:10: error: the file \"f.txt\" is in no known format; known: ")));
   write<std::complex<float>>("complex.npy", "<c8", {4, 3, 2}, 0);
   expect_refused(read("complex.npy"), "the file \"" + (directory / "complex.npy").native() +
-                                          "\" holds values of the type '<c8'; convert it with astype(\"float32\")");
+                                          "\" holds values of the type \"'<c8'\", no numbers of 1 to 8 bytes; convert it with astype(\"uint8\")");
 }
 
 TEST_F(FactorsTest, PlainSpringsHaveNone) {

@@ -1,4 +1,5 @@
 // Bodies from image files, regions from surfaces: what is read, and what is refused.
+#include <bzlib.h>
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,12 +11,10 @@
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkXMLImageDataWriter.h>
+#include <zlib.h>
 
 #include <fstream>
-#include <numbers>
-#include <numeric>
 
-#include "io/files.h"
 #include "koshi/input.h"
 #include "support/temporary_directory.h"
 
@@ -172,6 +171,114 @@ TEST_F(LoadFilesTest, ImagesThroughVtk) {
   for (const char* file : {"only.vti", "named.vti", "scan.mha", "scan.mhd", "scan.nrrd"}) expect_image(file);
 }
 
+// Every way in which VTK stores the values of an image.
+TEST_F(LoadFilesTest, VtkImagesInEveryEncoding) {
+  vtkNew<vtkImageData> cells;
+  cells->SetExtent(2, 2 + nx, -1, ny - 1, 0, nz);
+  vtkNew<vtkIntArray> values;
+  fill(values, "material");
+  cells->GetCellData()->AddArray(values);
+  vtkNew<vtkDoubleArray> other;
+  fill(other, "strain");
+  cells->GetCellData()->AddArray(other);
+  int count = 0;
+  for (const int mode : {vtkXMLWriter::Ascii, vtkXMLWriter::Binary, vtkXMLWriter::Appended})
+    for (const bool compressed : {false, true})
+      for (const bool encoded : {false, true})
+        for (const int order : {vtkXMLWriter::LittleEndian, vtkXMLWriter::BigEndian})
+          for (const int header : {vtkXMLWriter::UInt32, vtkXMLWriter::UInt64}) {
+            vtkNew<vtkXMLImageDataWriter> writer;
+            const std::string file = fmt::format("{}.vti", count++);
+            writer->SetFileName((directory / file).c_str());
+            writer->SetInputData(cells);
+            writer->SetDataMode(mode);
+            if (!compressed) writer->SetCompressorTypeToNone();
+            writer->SetBlockSize(64);  // of 96 bytes
+            writer->SetEncodeAppendedData(encoded);
+            writer->SetByteOrder(order);
+            writer->SetHeaderType(header);
+            ASSERT_EQ(writer->Write(), 1);
+            expect_image(file);
+          }
+  EXPECT_EQ(count, 48);
+}
+
+// The values of value() as 16-bit numbers.
+std::string shorts(bool big_endian) {
+  std::string bytes;
+  for (int k = 0; k < nz; ++k)
+    for (int j = 0; j < ny; ++j)
+      for (int i = 0; i < nx; ++i) {
+        const auto v = static_cast<std::uint16_t>(value(i, j, k));
+        const char low = static_cast<char>(v & 0xff), high = static_cast<char>(v >> 8);
+        bytes += big_endian ? high : low;
+        bytes += big_endian ? low : high;
+      }
+  return bytes;
+}
+
+std::string deflated(const std::string& bytes) {
+  std::string packed(1000, '\0');
+  uLongf size = packed.size();
+  compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()), bytes.size());
+  return packed.substr(0, size);
+}
+
+TEST_F(LoadFilesTest, MetaImagesCompressedDetachedAndBigEndian) {
+  const std::string head =
+      "ObjectType = Image\nNDims = 3\nDimSize = 4 3 2\nElementSpacing = 0.5 0.5 0.5\nElementType = MET_SHORT\n";
+  const std::string packed = deflated(shorts(false));
+  write("big.mha", head + "ElementByteOrderMSB = True\nElementDataFile = LOCAL\n" + shorts(true));
+  write("packed.mha", head + "CompressedData = True\nElementDataFile = LOCAL\n" + packed);
+  write("packed.mhd",
+        head + fmt::format("CompressedData = True\nCompressedDataSize = {}\nElementDataFile = packed.zraw\n",
+                           packed.size()));
+  write("packed.zraw", packed);
+  write("skipped.mhd", head + "HeaderSize = 5\nElementDataFile = skipped.raw\n");
+  write("last.mhd", head + "HeaderSize = -1\nElementDataFile = skipped.raw\n");
+  write("skipped.raw", "12345" + shorts(false));
+  for (const char* file : {"big.mha", "packed.mha", "packed.mhd", "skipped.mhd", "last.mhd"}) expect_image(file);
+  write("wrong.mhd", head + "CompressedData = True\nCompressedDataSize = 99999999999\nElementDataFile = packed.zraw\n");
+  expect_refused("wrong.mhd",
+                 fmt::format("names the data file \"packed.zraw\", which has {} bytes of compressed values, but "
+                             "its header asks for 99999999999",
+                             packed.size()));
+  write("behind.mhd", head + "HeaderSize = 500\nElementDataFile = skipped.raw\n");
+  expect_refused("behind.mhd", "names the data file \"skipped.raw\", which has 53 bytes, fewer than HeaderSize");
+}
+
+TEST_F(LoadFilesTest, NrrdImagesCompressedDetachedAndBigEndian) {
+  const std::string head = "NRRD0005\n# a comment\ntype: int16\ndimension: 3\nsizes: 4 3 2\nowner:=nobody: me\n";
+  write("big.nrrd", head + "endian: big\nencoding: raw\n\n" + shorts(true));
+  write("gzip.nrrd", head + "endian: little\nencoding: gzip\n\n" + deflated(shorts(false)));
+  std::string packed(1000, '\0');
+  auto size = static_cast<unsigned>(packed.size());
+  std::string bytes = shorts(false);
+  ASSERT_EQ(BZ2_bzBuffToBuffCompress(packed.data(), &size, bytes.data(), static_cast<unsigned>(bytes.size()), 9, 0, 0),
+            BZ_OK);
+  write("bzip2.nrrd", head + "endian: little\nencoding: bzip2\n\n" + packed.substr(0, size));
+  write("detached.nhdr", head + "endian: little\nencoding: raw\nbyte skip: 3\ndata file: detached.raw\n");
+  write("last.nhdr", head + "endian: little\nencoding: raw\nbyteskip: -1\ndatafile: detached.raw\n\n");
+  write("detached.raw", "123" + shorts(false));
+  // An axis of one value beside the three of space.
+  write("scalar.nrrd",
+        "NRRD0005\ntype: int16\ndimension: 4\nsizes: 1 4 3 2\nendian: little\nencoding: raw\n\n" + shorts(false));
+  for (const char* file : {"big.nrrd", "gzip.nrrd", "bzip2.nrrd", "detached.nhdr", "last.nhdr", "scalar.nrrd"})
+    expect_image(file);
+  write("cut.nrrd", head + "endian: little\nencoding: bzip2\n\n" + packed.substr(0, size - 1));
+  expect_refused("cut.nrrd", "has compressed values that are cut short");
+  write("more.nrrd", head + "endian: little\nencoding: bzip2\n\n" + packed.substr(0, size) + "x");
+  expect_refused("more.nrrd", "has other bytes behind its compressed values");
+  write("colours.nrrd",
+        "NRRD0005\ntype: uchar\ndimension: 3\nsizes: 3 4 2\nkinds: RGB-color domain domain\nencoding: raw\n\n" +
+            shorts(false));
+  expect_refused("colours.nrrd", "has kinds: \"RGB-color domain domain\"; expected domain or space; one value a voxel");
+  write("flat.nrrd", head + "spacings: 1 1 2\nendian: little\nencoding: raw\n\n" + shorts(false));
+  expect_refused("flat.nrrd",
+                 "has voxels of 1 x 1 x 2, but cells are cubes; resample it to voxels of one side first, such "
+                 "as with scipy.ndimage.zoom by 1, 1, 2 along x, y, z");
+}
+
 TEST_F(LoadFilesTest, WrongImagesAreRefusedAtTheirKey) {
   expect_refused("missing.npy", "cannot be opened (No such file or directory)");
   std::filesystem::create_directory(directory / "folder.npy");
@@ -179,28 +286,30 @@ TEST_F(LoadFilesTest, WrongImagesAreRefusedAtTheirKey) {
   write("text.npy", "hello, world, hello");
   expect_refused("text.npy", "is no NumPy file");
   write("real.npy", npy_header("{'descr': '<f8', 'fortran_order': False, 'shape': (1, 1, 1), }") + "12345678");
-  expect_refused("real.npy", "holds values of the type '<f8', not whole numbers");
+  expect_refused("real.npy", "holds values of the type float64, not whole numbers");
+  write("half.npy", npy_header("{'descr': '<f2', 'fortran_order': False, 'shape': (1, 1, 1), }") + "12");
+  expect_refused("half.npy", "holds values of the type \"'<f2'\", no numbers of 1 to 8 bytes");
   write("flat.npy", npy_header("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2), }") + "1234");
   expect_refused("flat.npy", "has the shape (2, 2); expected three axes, [z][y][x]");
   write("short.npy", npy_header("{'descr': '|u1', 'fortran_order': False, 'shape': (2, 2, 2), }") + "1234567");
-  expect_refused("short.npy", "is not as long as its shape (2, 2, 2) asks for; it may be cut short");
+  expect_refused("short.npy", "is cut short: 2 x 2 x 2 voxels of uint8 need 8 bytes, at most 7 are there");
   write("none.npy", npy_header("{'descr': '|u1', 'fortran_order': False, 'shape': (0, 2, 2), }"));
   expect_refused("none.npy", "has the shape (0, 2, 2) and hence no cells");
   write("text.vti", "hello");
-  expect_refused("text.vti", "is not a VTK image");
+  expect_refused("text.vti", "is no XML: ");
   write("text.mha", "hello");
   expect_refused("text.mha", "is not a MetaImage");
   write("text.nrrd", "hello");
   expect_refused("text.nrrd", "is not an NRRD image");
   write("short.nrrd",
         "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 4 3 2\nkinds: domain domain domain\nencoding: raw\n\n12345");
-  expect_refused("short.nrrd", "cannot be read as an NRRD image: File operation failed");
+  expect_refused("short.nrrd", "is cut short: 4 x 3 x 2 voxels of uint8 need 24 bytes, at most 5 are there");
   write("ascii.nrrd", "NRRD0004\r\ntype: uchar\r\ndimension: 3\r\nsizes: 3 1 1\r\nencoding: ascii\r\n\r\n1 1 1");
-  expect_refused("ascii.nrrd", "has the encoding \"ascii\"; save it as \"raw\" or \"gzip\"");
+  expect_refused("ascii.nrrd", "has encoding: \"ascii\"; expected \"raw\", \"gzip\" or \"bzip2\"");
   write("short.mha",
         "ObjectType = Image\nNDims = 3\nBinaryData = True\nDimSize = 4 3 2\nElementType = MET_UCHAR\nElementDataFile = "
         "LOCAL\n12345");
-  expect_refused("short.mha", "cannot be read as a MetaImage");
+  expect_refused("short.mha", "is cut short: 4 x 3 x 2 voxels of uint8 need 24 bytes, at most 5 are there");
 
   vtkNew<vtkImageData> points;
   points->SetDimensions(nx, ny, nz);
@@ -215,7 +324,7 @@ TEST_F(LoadFilesTest, WrongImagesAreRefusedAtTheirKey) {
   fill(real_values, "value");
   reals->GetCellData()->AddArray(real_values);
   write_vti("reals.vti", reals);
-  expect_refused("reals.vti", "holds values of the type double, not whole numbers");
+  expect_refused("reals.vti", "holds values of the type float64, not whole numbers");
 }
 
 TEST_F(LoadFilesTest, ValuesWithoutMaterialAreListed) {
@@ -234,105 +343,6 @@ TEST_F(LoadFilesTest, SizeOfAProgramMustFit) {
   EXPECT_EQ(load_files(definition).body.cells.size(), 24u);
   definition.body.size = {0.004, 0.003, 0.003};
   EXPECT_THAT([&] { load_files(definition); }, ThrowsMessage<InputError>(HasSubstr("the image has 4 x 3 x 2 cells")));
-}
-
-using Triangle = std::array<Vec3, 3>;
-
-// Triangles of a closed surface over a rectangle of parameters, `rows` x `columns` quadrangles wide; those that shrink
-// to a line are left out.
-std::vector<Triangle> surface_of(int rows, int columns, const std::function<Vec3(int, int)>& point) {
-  std::vector<Triangle> triangles;
-  const auto add = [&](const Triangle& t) {
-    if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0]) triangles.push_back(t);
-  };
-  for (int r = 0; r < rows; ++r)
-    for (int c = 0; c < columns; ++c) {
-      const Vec3 a = point(r, c), b = point(r + 1, c), x = point(r, (c + 1) % columns),
-                 y = point(r + 1, (c + 1) % columns);
-      add({a, b, y});
-      add({a, y, x});
-    }
-  return triangles;
-}
-
-// A box as a surface of revolution with four sides: from one pole over the lower and upper corners to the other.
-std::vector<Triangle> box_surface(const Vec3& lo, const Vec3& hi) {
-  return surface_of(3, 4, [=](int row, int side) -> Vec3 {
-    const double z = row < 2 ? lo[2] : hi[2];
-    if (row == 0 || row == 3) return {0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1]), z};
-    return {side == 0 || side == 3 ? lo[0] : hi[0], side < 2 ? lo[1] : hi[1], z};
-  });
-}
-
-std::vector<Triangle> sphere_surface(const Vec3& center, double radius) {
-  return surface_of(60, 60, [=](int row, int side) -> Vec3 {
-    if (row == 0 || row == 60) return center + Vec3{0, 0, row == 0 ? -radius : radius};
-    const double theta = std::numbers::pi * row / 60, phi = 2 * std::numbers::pi * side / 60;
-    return center + radius * Vec3{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), -std::cos(theta)};
-  });
-}
-
-class SurfaceTest : public LoadFilesTest {
- protected:
-  void write_stl(const std::string& file, const std::vector<Triangle>& triangles) const {
-    std::string text = "solid test\n";
-    for (const Triangle& triangle : triangles) {
-      text += "facet normal 0 0 0\nouter loop\n";
-      for (const Vec3& x : triangle) text += fmt::format("vertex {:.9g} {:.9g} {:.9g}\n", x[0], x[1], x[2]);
-      text += "endloop\nendfacet\n";
-    }
-    write(file, text + "endsolid test\n");
-  }
-  model::Definition with_region(const std::string& file, const std::string& scale = "1 mm") const {
-    return read(
-        "origin = [\"-1 mm\", 0, 0]\nsize = [\"8 mm\", \"6 mm\", \"10 mm\"]\nmaterial = \"soft\"",
-        "[[region]]\nshape = \"stl\"\nfile = \"" + file + "\"\nscale = \"" + scale + "\"\nmaterial = \"hard\"\n");
-  }
-};
-
-TEST_F(SurfaceTest, BoxHoldsTheCellsOfTheSameBoxRegion) {
-  write_stl("box.stl", box_surface({0.8, 1.9, 2.6}, {4.2, 3.1, 8.4}));  // mm
-  const auto inside = load_files(with_region("box.stl")).regions[0].inside;
-  ASSERT_EQ(inside.size(), 8u * 6 * 10);
-  // Cell (i, j, k) has its centre at (-0.5 + i, 0.5 + j, 0.5 + k) mm.
-  int count = 0;
-  for (int k = 0; k < 10; ++k)
-    for (int j = 0; j < 6; ++j)
-      for (int i = 0; i < 8; ++i) {
-        const double x = -0.5 + i, y = 0.5 + j, z = 0.5 + k;
-        const bool in = x > 0.8 && x < 4.2 && y > 1.9 && y < 3.1 && z > 2.6 && z < 8.4;
-        count += in;
-        ASSERT_EQ(inside[static_cast<std::size_t>(i + 8 * (j + 6 * k))], in) << i << ' ' << j << ' ' << k;
-      }
-  EXPECT_EQ(count, 3 * 1 * 5);  // x: 1.5 2.5 3.5; y: 2.5; z: 3.5 ... 7.5
-}
-
-TEST_F(SurfaceTest, SphereHasItsVolumeInAnotherUnit) {
-  write_stl("sphere.stl", sphere_surface({0.3, 0.3, 0.5}, 0.25));  // cm
-  const auto inside = load_files(with_region("sphere.stl", "1 cm")).regions[0].inside;
-  // 4/3 pi 2.5^3 = 65.4 cells of 1 mm^3; counted on centres x = -0.5 + i etc. with |x - c| < 2.5 mm.
-  int count = 0;
-  for (int k = 0; k < 10; ++k)
-    for (int j = 0; j < 6; ++j)
-      for (int i = 0; i < 8; ++i) count += std::hypot(-0.5 + i - 3, 0.5 + j - 3, 0.5 + k - 5) < 2.49;
-  EXPECT_EQ(std::accumulate(inside.begin(), inside.end(), 0), count);
-  EXPECT_GT(count, 50);
-}
-
-TEST_F(SurfaceTest, OpenSurfaceAndOthersAreRefused) {
-  std::vector<Triangle> box = box_surface({1, 1, 1}, {4, 4, 4});
-  box.erase(box.begin() + 3);
-  write_stl("open.stl", box);
-  EXPECT_THAT([&] { load_files(with_region("open.stl")); },
-              ThrowsMessage<InputError>(testing::AllOf(HasSubstr("case.toml:17:8: error:"),
-                                                       HasSubstr("is no closed surface: 3 of its edges"))));
-  write("text.stl", "hello");
-  EXPECT_THAT([&] { load_files(with_region("text.stl")); }, ThrowsMessage<InputError>(HasSubstr("text.stl\" ")));
-  EXPECT_THAT([&] { load_files(with_region("none.stl")); }, ThrowsMessage<InputError>(HasSubstr("cannot be opened")));
-  write_stl("box.stl", box_surface({1, 1, 1}, {4, 4, 4}));
-  EXPECT_THAT([&] { load_files(with_region("box.stl", "1 m")); },
-              ThrowsMessage<InputError>(HasSubstr(
-                  "holds no cell's centre: it reaches from (1, 1, 1) to (4, 4, 4) m; check scale and origin")));
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
           .only_for("a body without an image", {"image"}, plain),
       key<D>("periodic", &D::periodic, "Opposite faces across x, y, z are joined.",
              {.example = "[true, false, false]"}),
-      key<D>("image", &D::image, "File of cell values (.npy, .vti, .mha, .mhd, .nrrd), one value a cell.",
+      key<D>("image", &D::image, "File of cell values (.npy, .vti, .mha, .mhd, .nrrd, .nhdr), one value a cell.",
              {.example = R"("scan.nrrd")"}),
       key<D>("materials", &D::image_materials, "Material, or \"void\", of each value in the image.",
              {.required = true, .example = R"({0 = "void", 1 = "rock"})"})
