@@ -4,6 +4,7 @@
 #include <exception>
 #include <iostream>
 
+#include "base/out_of_memory.h"
 #include "base/suggest.h"
 #include "commands.h"
 #include "koshi/error.h"
@@ -43,6 +44,12 @@ int main(int argc, char** argv) {
   } catch (const koshi::InputError& error) {
     std::cerr << error.what() << '\n';
     return 2;
+  } catch (const koshi::OutOfMemory& error) {
+    std::cerr << "error: " << error.what() << '\n';
+    return 1;
+  } catch (const std::bad_alloc&) {
+    std::cerr << "error: out of memory; `koshi check` says how much a run takes\n";
+    return 1;
   } catch (const std::exception& error) {
     std::cerr << "error: " << error.what() << '\n';
     return 1;

@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <new>
 
 #include "commands.h"
 #include "koshi/input.h"
@@ -47,6 +48,11 @@ void run(const Options& options, const Arguments& arguments) {
   } catch (const RunError& error) {
     if (world.size() > 1) leave_together(world, std::string("error: ") + error.what(), 1);
     throw;
+  } catch (const std::bad_alloc& error) {
+    // Memory may have run out on this rank alone: the launcher stops the others, which may wait for it.
+    if (world.size() == 1) throw;
+    std::cerr << "error: " << error.what() << std::endl;
+    std::_Exit(1);
   }
 }
 

@@ -7,6 +7,7 @@
 #include "base/collective.h"
 #include "base/log.h"
 #include "base/memory.h"
+#include "base/out_of_memory.h"
 #include "base/progress.h"
 #include "driver/checkpoints.h"
 #include "driver/fields.h"
@@ -56,8 +57,10 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
     history.write(history_row(at.time, measurement));
   };
   observer.fields = [&](model::State& at, double) {
-    const FieldSet set(definition.output.fields, model, at, simulation.meter());
-    field_writer.write(at.time, set.fields());
+    while_making("a sample of the fields", [&] {
+      const FieldSet set(definition.output.fields, model, at, simulation.meter());
+      field_writer.write(at.time, set.fields());
+    });
   };
   observer.progress = [&](double fraction, const std::string& details) {
     progress.update(fraction, details);

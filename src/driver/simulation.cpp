@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/collective.h"
+#include "base/out_of_memory.h"
 #include "driver/schedule.h"
 #include "driver/warnings.h"
 #include "koshi/dynamics.h"
@@ -37,13 +38,14 @@ model::Model load_model(const model::Definition& definition, const Communicator&
 
 Simulation::Simulation(const model::Definition& definition, const Communicator& communicator)
     : memory_before_(resident_memory(communicator)),
-      model_(std::make_unique<model::Model>(load_model(definition, communicator))),
+      model_(while_making("the model",
+                          [&] { return std::make_unique<model::Model>(load_model(definition, communicator)); })),
       kernel_(std::make_unique<mechanics::ForceKernel>(model_->lattice)),
       meter_(std::make_unique<mechanics::Meter>(*model_, *kernel_)) {}
 
 model::State& Simulation::state() {
   if (state_) return *state_;
-  state_ = std::make_unique<model::State>(*model_);
+  state_ = while_making("displacements and velocities", [&] { return std::make_unique<model::State>(*model_); });
   if (wants_orientation(model_->definition) && model_->components() == 6) {
     state_->orientation = lattice::Field<double>(model_->layout(), 4);
     std::fill_n(state_->orientation.component(0), state_->orientation.stride(), 1.0);

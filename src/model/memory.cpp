@@ -6,12 +6,11 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <fstream>
-#include <limits>
 #include <random>
 #include <set>
 #include <string>
 
+#include "base/free_memory.h"
 #include "koshi/model.h"
 #include "lattice/partition.h"
 #include "model/regions.h"
@@ -99,17 +98,6 @@ double sample_bytes(const Definition& definition) {
   return bytes;
 }
 
-double available_memory() {
-  std::ifstream file("/proc/meminfo");
-  std::string key;
-  double kilobytes = 0;
-  while (file >> key) {
-    if (key == "MemAvailable:" && file >> kilobytes) return 1024 * kilobytes;
-    file.ignore(256, '\n');
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 double predicted_memory(const Definition& definition, int ranks) {
@@ -145,13 +133,14 @@ double predicted_memory(const Definition& definition, int ranks) {
 }
 
 void check_memory(const Definition& definition, int ranks) {
-  const double needed = predicted_memory(definition, ranks), available = available_memory();
-  if (needed <= available) return;
-  const double spacing = definition.lattice.spacing * std::cbrt(needed / available);
+  const double needed = predicted_memory(definition, ranks);
+  const FreeMemory free = free_memory(ranks);
+  if (needed <= free.bytes) return;
+  const double spacing = definition.lattice.spacing * std::cbrt(needed / free.bytes);
   throw InputError(
       definition.places.find("lattice.spacing"),
-      fmt::format("the run needs {:.3g} GB of memory and {:.3g} GB are free; a spacing of about {:.3g} m would fit",
-                  needed / 1e9, available / 1e9, 1.02 * spacing));
+      fmt::format("the run needs {:.3g} GB of memory and {:.3g} GB are free {}; a spacing of about {:.3g} m would fit",
+                  needed / 1e9, free.bytes / 1e9, free.limit, 1.02 * spacing));
 }
 
 }  // namespace koshi::model

@@ -3,19 +3,30 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <new>
 
 #include "koshi/error.h"
 
 namespace koshi::statics {
 
 void check(PetscErrorCode code) {
-  if (code == 0) return;
-  const char* text = nullptr;
-  char* specific = nullptr;
-  PetscErrorMessage(code, &text, &specific);
-  throw RunError(fmt::format("PETSc stopped: {}{}{}", text != nullptr ? text : "error",
-                             specific != nullptr && *specific != '\0' ? ": " : "",
-                             specific != nullptr ? specific : ""));
+  switch (code) {
+    case 0:
+      return;
+    case PETSC_ERR_MEM:
+      throw std::bad_alloc();
+    case PETSC_ERR_ARG_UNKNOWN_TYPE:
+    case PETSC_ERR_USER_INPUT:
+      throw RunError("PETSc does not know what one of the options after -- asks for; check its value");
+    case PETSC_ERR_MAT_LU_ZRPVT:
+    case PETSC_ERR_MAT_CH_ZRPVT:
+    case PETSC_ERR_LIB:
+      throw RunError(
+          "the coarsest level could not be factored: some motion of the body costs no energy; `koshi check` says what "
+          "the springs can hold");
+    default:
+      throw RunError(fmt::format("the equations could not be solved: PETSc gave up with its error {}", code));
+  }
 }
 
 namespace {

@@ -11,7 +11,7 @@
 
 namespace koshi::statics {
 
-/// Throws RunError with PETSc's message when the code is not success.
+/// Throws RunError, in words of ours, when the code is not success; std::bad_alloc when memory ran out.
 void check(PetscErrorCode code);
 
 /// Owns one PETSc object.

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <limits>
+#include <memory>
 
+#include "base/out_of_memory.h"
 #include "base/progress.h"
 #include "statics/equilibrium.h"
 #include "statics/free_motions.h"
@@ -90,6 +93,9 @@ PetscErrorCode monitor(KSP, PetscInt iteration, PetscReal residual, void* data) 
   return context.stopped ? PETSC_ERR_USER : code;
 }
 
+// Contrast of stiffness up to which a stiff bar that hangs on a soft one reaches a residual of 1e-8.
+constexpr double most_contrast = 1e8;
+
 // The residuals of at most a dozen iterations, the last one among them.
 std::string history_text(const std::vector<double>& history) {
   constexpr std::size_t shown = 12;
@@ -101,9 +107,41 @@ std::string history_text(const std::vector<double>& history) {
   return text;
 }
 
-std::string hint(KSPConvergedReason reason, const std::vector<double>& history) {
+std::string in_words(KSPConvergedReason reason) {
+  switch (reason) {
+    case KSP_DIVERGED_ITS:
+      return "more of them are needed";
+    case KSP_DIVERGED_DTOL:
+      return "the residual grows";
+    case KSP_DIVERGED_NANORINF:
+      return "numbers overflowed";
+    case KSP_DIVERGED_INDEFINITE_MAT:
+    case KSP_DIVERGED_INDEFINITE_PC:
+      return "the stiffness is not positive";
+    default:
+      return "the iteration broke down";
+  }
+}
+
+// Young's modulus of the stiffest material over that of the softest.
+double contrast(const model::Model& model) {
+  double least = std::numeric_limits<double>::infinity(), most = 0;
+  for (std::size_t m = 1; m < model.materials.size(); ++m) {
+    least = std::min(least, model.materials[m].youngs_modulus);
+    most = std::max(most, model.materials[m].youngs_modulus);
+  }
+  return most / least;
+}
+
+std::string hint(KSPConvergedReason reason, const std::vector<double>& history, double contrast) {
   const double least = history.empty() ? 1 : *std::min_element(history.begin(), history.end());
-  if (reason == KSP_DIVERGED_NANORINF) return "numbers overflowed; check loads and units";
+  if (reason == KSP_DIVERGED_NANORINF) return "check loads and units";
+  // A stiff part moves by what the soft one gives; rounding of that motion is a force of its own stiffness.
+  if (contrast >= most_contrast)
+    return fmt::format(
+        "the stiffest material has {:.0e} times the stiffness of the softest, and where the soft one carries the load "
+        "rounding ends what can be reached at about {:.0e}; make the softest stiffer, or void",
+        contrast, most_contrast);
   if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC)
     return "some motion of the body costs no energy or releases it; `koshi check` says what the springs can hold";
   if (least < 1e-12) return "rounding ends what can be reached; take a tolerance of 1e-11 or more";
@@ -135,7 +173,9 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   const PetscSession session(model.communicator, options.petsc_options);
   Equilibrium equilibrium(model, state.time, state.displacement);
   const FreeMotions free(model, equilibrium.fixed());
-  Preconditioner preconditioner(model, equilibrium.fixed(), free);
+  const auto made = while_making("the levels of the solver",
+                                 [&] { return std::make_unique<Preconditioner>(model, equilibrium.fixed(), free); });
+  Preconditioner& preconditioner = *made;
   report.projected_motions = free.count();
   report.free_motions = free.description();
   report.levels = preconditioner.level_count();
@@ -161,7 +201,8 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   check(KSPSetOperators(solver, matrix, matrix));
   check(KSPSetType(solver, KSPCG));
   check(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
-  check(KSPSetTolerances(solver, options.tolerance, PETSC_DEFAULT, PETSC_DEFAULT, options.max_iterations));
+  // Strong contrasts: while a stiff part finds its place in a soft one the residual may rise by orders of magnitude.
+  check(KSPSetTolerances(solver, options.tolerance, PETSC_DEFAULT, 1e30, options.max_iterations));
   PC pc = nullptr;
   check(KSPGetPC(solver, &pc));
   check(PCSetType(pc, PCSHELL));
@@ -173,7 +214,7 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
 
   const PetscErrorCode code = KSPSolve(solver, b, x);
   if (context.error) std::rethrow_exception(context.error);
-  if (!context.stopped) check(code);
+  if (!context.stopped) while_making("the vectors of the solver", [&] { check(code); });
   report.solve_seconds = steady_seconds() - start - report.setup_seconds;
 
   PetscInt iterations = 0;
@@ -188,8 +229,8 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   report.unused_options = session.unused_options();
   if (!report.converged && !report.stopped)
     throw RunError(fmt::format(
-        "no equilibrium found: {} after {} iterations; relative residual by iteration: {}; {}{}", report.reason,
-        report.iterations, history_text(report.residual_history), hint(reason, report.residual_history),
+        "no equilibrium found in {} iterations: {}; relative residual by iteration: {}; {}{}", report.iterations,
+        in_words(reason), history_text(report.residual_history), hint(reason, report.residual_history, contrast(model)),
         report.unused_options.empty() ? "" : fmt::format("; not used: {}", fmt::join(report.unused_options, " "))));
 
   const PetscScalar* solution = nullptr;

@@ -207,6 +207,33 @@ TEST_F(Continuation, AnotherDurationKeepsTheStep) {
   EXPECT_LT(end()["time"].get<double>(), 1.1234e-4 + step);
 }
 
+// 4 GB of bar do not fit into an address space of 1.5 GB: said before anything is made.
+TEST_F(Continuation, ALimitOfTheAddressSpaceIsRespected) {
+  const Ended ended = koshi("--version >/dev/null; ulimit -v 1500000; '" + std::string(KOSHI_PROGRAM) +
+                            "' run bar.toml --out new --set 'body.size=[\"40 cm\", \"4 m\", \"4 m\"]'");
+  EXPECT_EQ(ended.code, 2);
+  EXPECT_THAT(ended.error,
+              testing::ContainsRegex("the run needs [0-9.]+ GB of memory and [01]\\.[0-9]+ GB are free within "
+                                     "the limit of a process's address space \\(ulimit -v\\); a spacing of "
+                                     "about [0-9.]+ m would fit"));
+  EXPECT_FALSE(fs::exists(directory_ / "new"));
+}
+
+// A stiff body that hangs in a softer one is found up to eight orders of magnitude; beyond, the message says the limit.
+TEST_F(Continuation, StrongContrastsAreSolvedOrSaidToBeBeyondReach) {
+  std::string text = bar + "[material.jelly]\nyoungs_modulus = \"200 GPa\"\npoissons_ratio = 0\ndensity = 1000\n";
+  text += "[[region]]\nshape = \"box\"\nmaterial = \"jelly\"\nmin = [0, 0, 0]\nmax = [\"20 cm\", \"1 cm\", \"1 cm\"]\n";
+  test::write_file(directory_ / "soft.toml", text);
+  // The soft half stretches by F L / (2 E A), the stiff one by next to nothing.
+  ASSERT_EQ(koshi("run soft.toml --out soft --quiet --set material.jelly.youngs_modulus=2000").code, 0);
+  const double u = history("soft")[1].back();
+  EXPECT_NEAR(u / (2000 * length / 2 / (2000 * 1e-4)), 1, 1e-4);
+  const Ended beyond = koshi("run soft.toml --out soft --quiet --set material.jelly.youngs_modulus=2e-4");
+  EXPECT_EQ(beyond.code, 1);
+  EXPECT_THAT(beyond.error, HasSubstr("the stiffest material has 1e+15 times the stiffness of the softest"));
+  EXPECT_THAT(beyond.error, Not(HasSubstr("DIVERGED")));
+}
+
 TEST_F(Continuation, AnEquilibriumLeavesNothingToDo) {
   ASSERT_EQ(koshi("run bar.toml --out out --quiet").code, 0);
   const std::string summary = test::read_file(directory_ / "out/summary.json");
