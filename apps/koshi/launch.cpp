@@ -69,6 +69,10 @@ bool is_launched() {
 }
 
 void launch(int ranks, const std::vector<std::string>& arguments) {
+  if (const char* path = std::getenv("PATH"); path == nullptr || *path == 0)
+    throw InputError(Place{"--ranks"},
+                     "the environment has no PATH, where mpiexec and its helpers are looked for; set it, such as "
+                     "PATH=/usr/bin:/bin, or leave --ranks out");
   set_environment(ranks);
   std::vector<std::string> command{"mpiexec", "-n", std::to_string(ranks), "/proc/self/exe"};
   std::vector<char> self(4096);

@@ -1,13 +1,32 @@
 // The program `koshi`. Exit code 0: done, 1: the run failed, 2: bad input.
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <exception>
 #include <iostream>
+#include <sstream>
 
+#include "base/escape.h"
 #include "base/out_of_memory.h"
 #include "base/suggest.h"
 #include "commands.h"
+#include "io/files.h"
 #include "koshi/error.h"
+
+namespace {
+
+// What was printed must have arrived: a full disk behind "> file" is a failure.
+int finish(int code) {
+  std::cout.flush();
+  errno = 0;
+  if (std::fflush(stdout) == 0 && std::cout) return code;
+  std::cerr << "error: cannot write to the standard output: " << koshi::io::system_reason(errno != 0 ? errno : EIO)
+            << '\n';
+  return code == 0 ? 1 : code;
+}
+
+}  // namespace
 
 int main(int argc, char** argv) {
   using koshi::app::Arguments;
@@ -35,11 +54,13 @@ int main(int argc, char** argv) {
     // CLI11 takes the arguments in reverse order, without the program's name.
     Arguments reversed(own.rbegin(), own.rend() - 1);
     app.parse(reversed);
-    return 0;
+    return finish(0);
   } catch (const CLI::Success& success) {
-    return app.exit(success);
+    return finish(app.exit(success));
   } catch (const CLI::ParseError& error) {
-    app.exit(error);
+    std::ostringstream text;
+    app.exit(error, text, text);
+    std::cerr << koshi::escaped(text.str(), true);
     return 2;
   } catch (const koshi::InputError& error) {
     std::cerr << error.what() << '\n';
@@ -51,7 +72,7 @@ int main(int argc, char** argv) {
     std::cerr << "error: out of memory; `koshi check` says how much a run takes\n";
     return 1;
   } catch (const std::exception& error) {
-    std::cerr << "error: " << error.what() << '\n';
+    std::cerr << "error: " << koshi::escaped(error.what(), true) << '\n';
     return 1;
   }
 }

@@ -4,10 +4,13 @@
 #include <iostream>
 #include <new>
 
+#include "base/escape.h"
 #include "commands.h"
 #include "koshi/input.h"
 #include "koshi/run.h"
+#include "lattice/partition.h"
 #include "launch.h"
+#include "model/regions.h"
 
 namespace koshi::app {
 namespace {
@@ -32,10 +35,23 @@ void leave_together(const Communicator& world, const std::string& message, int e
   std::_Exit(exit_code);
 }
 
+// Refuses more processes than the nodes of the body can be shared among, before any is started.
+void check_ranks(model::Definition definition, int ranks) {
+  definition.regions.clear();
+  try {
+    lattice::make_partition(model::make_grid(io::load_files(definition)), ranks);
+  } catch (const InputError& error) {
+    throw error.place().file.empty() ? InputError(Place{"--ranks"}, error.message()) : error;
+  }
+}
+
 void run(const Options& options, const Arguments& arguments) {
   // Read first: wrong input is reported once, and without starting ranks.
   const model::Definition definition = io::read_case(options.file, options.overrides);
-  if (options.ranks > 1 && !is_launched()) launch(options.ranks, arguments);
+  if (options.ranks > 1 && !is_launched()) {
+    check_ranks(definition, options.ranks);
+    launch(options.ranks, arguments);
+  }
   const Environment environment(nullptr, nullptr);
   const Communicator world = Communicator::world();
   try {
@@ -46,7 +62,7 @@ void run(const Options& options, const Arguments& arguments) {
     if (world.size() > 1) leave_together(world, error.what(), 2);
     throw;
   } catch (const RunError& error) {
-    if (world.size() > 1) leave_together(world, std::string("error: ") + error.what(), 1);
+    if (world.size() > 1) leave_together(world, "error: " + escaped(error.what(), true), 1);
     throw;
   } catch (const std::bad_alloc& error) {
     // Memory may have run out on this rank alone: the launcher stops the others, which may wait for it.

@@ -2,6 +2,7 @@
 
 #include <mpi.h>
 
+#include <cstdlib>
 #include <vector>
 
 namespace koshi {
@@ -9,9 +10,15 @@ namespace {
 
 MPI_Comm mpi(int handle) { return MPI_Comm_f2c(handle); }
 
+// A process without a launcher needs no daemon of one, which would want programs of a PATH and a home directory.
+void start(int* argc, char*** argv) {
+  ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  MPI_Init(argc, argv);
+}
+
 }  // namespace
 
-Environment::Environment(int* argc, char*** argv) { MPI_Init(argc, argv); }
+Environment::Environment(int* argc, char*** argv) { start(argc, argv); }
 Environment::~Environment() { MPI_Finalize(); }
 
 bool Environment::is_running() {
@@ -21,7 +28,7 @@ bool Environment::is_running() {
 }
 
 Communicator Communicator::world() {
-  if (!Environment::is_running()) MPI_Init(nullptr, nullptr);
+  if (!Environment::is_running()) start(nullptr, nullptr);
   return Communicator(MPI_Comm_c2f(MPI_COMM_WORLD));
 }
 

@@ -2,13 +2,15 @@
 
 #include <fmt/format.h>
 
+#include "base/escape.h"
+
 namespace koshi {
 namespace {
 
 std::string located(const Place& place, const std::string& message) {
-  if (place.file.empty()) return fmt::format("error: {}", message);
-  if (place.line == 0) return fmt::format("{}: error: {}", place.file, message);
-  return fmt::format("{}:{}:{}: error: {}", place.file, place.line, place.column, message);
+  if (place.file.empty()) return fmt::format("error: {}", escaped(message));
+  if (place.line == 0) return fmt::format("{}: error: {}", escaped(place.file), escaped(message));
+  return fmt::format("{}:{}:{}: error: {}", escaped(place.file), place.line, place.column, escaped(message));
 }
 
 }  // namespace

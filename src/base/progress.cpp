@@ -6,6 +6,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "base/escape.h"
+
 namespace koshi {
 namespace {
 
@@ -36,7 +38,7 @@ std::string duration_text(double seconds) {
 
 Progress::Progress(bool quiet, std::string what, Console& console, Clock clock)
     : quiet_(quiet),
-      what_(std::move(what)),
+      what_(escaped(what)),
       console_(console),
       clock_(std::move(clock)),
       start_time_(clock_()),

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "base/escape.h"
 #include "base/memory.h"
 #include "calibration/calibrate.h"
 #include "driver/schedule.h"
@@ -61,9 +62,9 @@ std::string check(const model::Definition& definition, const Communicator& commu
   text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB, of it {:.3g} GB for the body\n",
                       model.motion_count, (libraries + body) / 1e9, body / 1e9);
   if (definition.analysis.type != model::AnalysisDefinition::Type::statics) text += explicit_part(model);
-  for (const std::string& warning : found) text += "warning       " + warning + "\n";
+  for (const std::string& warning : found) text += "warning       " + escaped(warning) + "\n";
   for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
-    text += fmt::format("\n# material {}\n", definition.materials[m - 1].name) +
+    text += fmt::format("\n# material {}\n", escaped(definition.materials[m - 1].name)) +
             calibration::calibration_report(
                 calibration::examine(definition.lattice, model.materials[m], model.lattice.springs[m]));
   return text;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "base/escape.h"
+
 namespace koshi::driver {
 namespace {
 
@@ -128,7 +130,7 @@ std::string headline(const model::Model& model, const Outcome& outcome) {
   }
   for (std::size_t p = 0; p < model.probes.size(); ++p) {
     const model::ProbeDefinition& probe = model.probes[p].definition;
-    text += fmt::format("  {} {}: ", probe.name, mechanics::name_of(probe.quantity));
+    text += fmt::format("  {} {}: ", escaped(probe.name), mechanics::name_of(probe.quantity));
     const auto names = mechanics::component_names(probe.quantity);
     for (std::size_t c = 0; c < names.size(); ++c)
       text += fmt::format("{}{} = {:.6g}", c == 0 ? "" : ", ", names[c], outcome.measurement.probes[p][c]);

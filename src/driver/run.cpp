@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "base/collective.h"
+#include "base/escape.h"
 #include "base/log.h"
 #include "base/memory.h"
 #include "base/out_of_memory.h"
@@ -119,7 +120,7 @@ void run(const model::Definition& definition, const RunOptions& options, const C
   Simulation simulation(definition, communicator);
   const Outcome outcome = run_simulation(simulation, options);
   if (!options.quiet && communicator.is_root())
-    fmt::print("{}results in {}\n", headline(simulation.model(), outcome), options.directory.string());
+    fmt::print("{}results in {}\n", headline(simulation.model(), outcome), escaped(options.directory.string()));
   require_rest(simulation.model(), outcome, "; the results so far are in " + options.directory.string());
 }
 

@@ -79,12 +79,44 @@ void check_platens(const Definition& definition, std::vector<std::string>& warni
   }
 }
 
+// A load along a component that its nodes are held in goes into the support, and the body feels nothing of it.
+void check_held_loads(const model::Model& model, std::vector<std::string>& warnings) {
+  const auto holder = [&](std::int64_t node, int component) {
+    const auto at = std::partition_point(model.motions.begin(), model.motions.end(), [&](const auto& motion) {
+      return std::pair(motion.node, int{motion.component}) < std::pair(node, component);
+    });
+    const bool found = at != model.motions.end() && at->node == node && at->component == component;
+    return found ? at->boundary : -1;
+  };
+  for (std::size_t l = 0; l < model.loads.size(); ++l)
+    for (int c = 0; c < 3; ++c) {
+      std::int64_t free = 0;
+      int boundary = -1;
+      for (const auto& [node, force] : model.loads[l].forces) {
+        if (force[static_cast<std::size_t>(c)] == 0) continue;
+        const int by = holder(node, c);
+        free += by < 0;
+        boundary = std::max(boundary, by);
+      }
+      boundary = static_cast<int>(model.communicator.max(static_cast<double>(boundary)));
+      if (model.communicator.sum(free) > 0 || boundary < 0) continue;
+      warnings.push_back(fmt::format(
+          "load \"{}\" acts along {} on nodes that boundary \"{}\" holds or moves along {}: its force there goes into "
+          "the "
+          "support and does nothing to the body; load other nodes, or leave {} out of the boundary",
+          model.definition.loads[l].name, model::component_names[static_cast<std::size_t>(c)],
+          model.definition.boundaries[static_cast<std::size_t>(boundary)].name,
+          model::component_names[static_cast<std::size_t>(c)], model::component_names[static_cast<std::size_t>(c)]));
+    }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const model::Model& model) {
   std::vector<std::string> warnings;
   check_springs(model, warnings);
   check_platens(model.definition, warnings);
+  check_held_loads(model, warnings);
   return warnings;
 }
 

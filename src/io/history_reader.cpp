@@ -28,7 +28,10 @@ std::string next_field(std::string_view& line) {
   return field;
 }
 
-HistoryColumn column_of(const std::string& header) {
+HistoryColumn column_of(std::string header) {
+  // The apostrophe that keeps spreadsheets from taking a name for a formula (history_writer.cpp).
+  if (header.size() > 1 && header[0] == '\'' && std::string_view("=+-@").find(header[1]) != std::string_view::npos)
+    header.erase(0, 1);
   const std::size_t bracket = header.rfind(" [");
   if (bracket == std::string::npos || !header.ends_with(']')) return {header, "1", {}};
   return {header.substr(0, bracket), header.substr(bracket + 2, header.size() - bracket - 3), {}};

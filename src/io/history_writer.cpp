@@ -7,15 +7,19 @@
 #include <charconv>
 
 #include "base/collective.h"
+#include "base/escape.h"
 #include "io/files.h"
 
 namespace koshi::io {
 namespace {
 
-// A name as a CSV field (RFC 4180), on one line.
+// A name as a CSV field (RFC 4180), on one line. Spreadsheets take what begins with one of the signs for a formula, and
+// with an apostrophe before it for text.
 std::string quoted(std::string name) {
   for (char& c : name)
     if (c == '\n' || c == '\r') c = ' ';
+  name = escaped(name);
+  if (!name.empty() && std::string_view("=+-@").find(name[0]) != std::string_view::npos) name = "'" + name;
   if (name.find_first_of(",\"") == std::string::npos) return name;
   std::string field = "\"";
   for (const char c : name) {

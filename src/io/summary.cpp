@@ -1,6 +1,7 @@
 #include "io/summary.h"
 
 #include "base/collective.h"
+#include "base/escape.h"
 #include "io/files.h"
 
 namespace koshi::io {
@@ -8,9 +9,11 @@ namespace koshi::io {
 void write_summary(const Communicator& communicator, const std::filesystem::path& directory,
                    const nlohmann::ordered_json& summary) {
   collectively(communicator, [&] {
-    // Names are the user's: bytes that are no UTF-8 are replaced instead of losing the whole file.
+    // Names are the user's: bytes that are no UTF-8 are replaced instead of losing the whole file; what an editor would
+    // not show is escaped, which means the same to a reader of JSON.
     constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
-    if (communicator.is_root()) replace_file(directory / "summary.json", summary.dump(2, ' ', false, replace) + "\n");
+    if (communicator.is_root())
+      replace_file(directory / "summary.json", escaped(summary.dump(2, ' ', false, replace), true) + "\n");
   });
 }
 

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include "base/escape.h"
 #include "io/field_reader.h"
 #include "io/files.h"
 #include "io/history_reader.h"
@@ -94,6 +95,14 @@ void add_summary(json& data, const model::Definition& definition, const json& su
     data["convergence"] = {{"residuals", residuals}, {"tolerance", definition.analysis.tolerance}};
 }
 
+// Names with characters that a page would not show, or would take for directions, are shown escaped.
+json shown(json data) {
+  if (data.is_string()) return escaped(data.get_ref<const std::string&>(), true);
+  if (data.is_structured())
+    for (auto& element : data) element = shown(std::move(element));
+  return data;
+}
+
 }  // namespace
 
 nlohmann::ordered_json report_data(const fs::path& directory) {
@@ -130,7 +139,7 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
 }
 
 void write_report_page(const fs::path& file, const nlohmann::ordered_json& data) {
-  io::replace_file(file, io::filled_template(io::read_file(find_template()), data));
+  io::replace_file(file, io::filled_template(io::read_file(find_template()), shown(data)));
 }
 
 void check_report_template() { find_template(); }

@@ -30,6 +30,23 @@ TEST(Overrides, ValuesAreTomlOrBareText) {
   EXPECT_EQ(read({"lattice.spacing=1 mm", "lattice.spacing=0.5 mm"}).lattice.spacing, 0.0005);
 }
 
+TEST(Overrides, NamesMayBeQuotedEitherWay) {
+  for (const std::string quote : {"'", "\"", ""}) {
+    const std::string name = quote + "top platen" + quote;
+    EXPECT_EQ(read({"boundary.top.name=top platen", "boundary." + name + ".displacement.z=1 mm"})
+                  .boundaries[1]
+                  .displacement[2],
+              0.001)
+        << name;
+  }
+  EXPECT_EQ(read({"boundary.top.name=a.b = c", "boundary.'a.b = c'.displacement.z=1 mm"}).boundaries[1].displacement[2],
+            0.001);
+  EXPECT_EQ(read({"boundary.top.name=Ann's \"own\"", "boundary.Ann's \"own\".displacement.z=1 mm"})
+                .boundaries[1]
+                .displacement[2],
+            0.001);
+}
+
 TEST(Overrides, TablesOfAListGoByNameOrIndex) {
   EXPECT_EQ(read({"boundary.top.displacement.z=1 mm"}).boundaries[1].displacement[2], 0.001);
   EXPECT_EQ(read({"boundary.1.displacement.z=1 mm"}).boundaries[1].displacement[2], 0.001);

@@ -15,17 +15,20 @@ struct Assignment {
   std::string value;
 };
 
-// Splits `a."b.c".d=value` at the dots and the first "=" outside quotes.
+// Splits `a."b.c".'d e'.f=value` at the dots and the first "=" outside quotes, which may be of both kinds and stand
+// around whole names.
 std::optional<Assignment> split(const std::string& text) {
   Assignment result{{""}, ""};
-  bool in_quotes = false;
+  char quote = 0;  // the one that is open
   for (std::size_t i = 0; i < text.size(); ++i) {
     const char c = text[i];
-    if (c == '"') {
-      in_quotes = !in_quotes;
-    } else if (c == '.' && !in_quotes) {
+    if (quote != 0 && c == quote) {
+      quote = 0;
+    } else if (quote == 0 && (c == '"' || c == '\'') && result.path.back().empty()) {
+      quote = c;
+    } else if (quote == 0 && c == '.') {
       result.path.emplace_back();
-    } else if (c == '=' && !in_quotes) {
+    } else if (quote == 0 && c == '=') {
       result.value = text.substr(i + 1);
       for (const auto& step : result.path)
         if (step.empty()) return std::nullopt;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/escape.h"
 #include "io/toml/form.h"
 
 namespace koshi::io {
@@ -32,19 +33,14 @@ void range_schema(const model::Range& range, Json& out) {
 
 }  // namespace
 
-// Control characters are the only ones that TOML does not take as they are.
+// What an editor would not show is escaped, control characters among it, which TOML does not take as they are.
 std::string toml_text(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\')
-      result += {'\\', c};
-    else if (code < 0x20 || code == 0x7f)
-      result += fmt::format("\\u{:04X}", code);
-    else
-      result += c;
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
   }
-  return result + '"';
+  return escaped(result) + '"';
 }
 
 std::string toml_key(const std::string& key) {
