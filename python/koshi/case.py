@@ -57,8 +57,8 @@ class Body:
     """factor 0 ... 1 on the stiffness of each cell: a file, or an array (nz, ny, nx); default 1"""
     origin: Vector | None = None
     """lower corner [m], default (0, 0, 0)"""
-    periodic: Sequence[bool] | None = None
-    """opposite faces across x, y, z are joined; default none"""
+    periodic: Sequence[str] | Sequence[bool] | None = None
+    """axes across which opposite faces are joined, such as ["x", "y"]; default none"""
 
 
 @dataclass

@@ -1,8 +1,10 @@
 #include "base/exact_sum.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace koshi {
 namespace {
@@ -51,15 +53,22 @@ void ExactSum::carry() {
   terms_ = 0;
 }
 
-void ExactSum::sum_ranks(const Communicator& communicator) {
-  carry();
-  std::array<std::int64_t, chunk_count + 1> values;
-  for (int k = 0; k < chunk_count; ++k) values[k] = chunk_[k];
-  values[chunk_count] = special_;
+void ExactSum::sum_ranks(const Communicator& communicator) { koshi::sum_ranks({this, 1}, communicator); }
+
+void sum_ranks(std::span<ExactSum> sums, const Communicator& communicator) {
+  constexpr std::size_t numbers = ExactSum::chunk_count + 1;
+  std::vector<std::int64_t> values(sums.size() * numbers);
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    sums[s].carry();
+    std::copy(sums[s].chunk_.begin(), sums[s].chunk_.end(), &values[s * numbers]);
+    values[s * numbers + ExactSum::chunk_count] = sums[s].special_;
+  }
   communicator.sum(values);
-  for (int k = 0; k < chunk_count; ++k) chunk_[k] = values[k];
-  special_ = values[chunk_count];
-  carry();
+  for (std::size_t s = 0; s < sums.size(); ++s) {
+    std::copy_n(&values[s * numbers], ExactSum::chunk_count, sums[s].chunk_.begin());
+    sums[s].special_ = values[s * numbers + ExactSum::chunk_count];
+    sums[s].carry();
+  }
 }
 
 double ExactSum::value() const {

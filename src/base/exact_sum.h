@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 
 #include "koshi/communicator.h"
 
@@ -22,6 +23,7 @@ class ExactSum {
   double value() const;
 
  private:
+  friend void sum_ranks(std::span<ExactSum> sums, const Communicator& communicator);
   void carry();
 
   // Chunk k holds multiples of 2^(32 k - 1074); 64-bit chunks overlap by 32 bits, so 2^29 terms fit before carrying.
@@ -30,5 +32,8 @@ class ExactSum {
   std::int64_t terms_ = 0;
   std::int64_t special_ = 0;  // terms that were no finite numbers
 };
+
+/// The same for many sums at once (collective; as many on every rank).
+void sum_ranks(std::span<ExactSum> sums, const Communicator& communicator);
 
 }  // namespace koshi

@@ -7,9 +7,9 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <cstring>
 #include <span>
 
+#include "base/exact_sum.h"
 #include "koshi/error.h"
 
 namespace koshi::statics {
@@ -140,7 +140,7 @@ FreeMotions::FreeMotions(const model::Model& model, const FixedNodes& fixed)
     V = factor.matrixL().solve(V.transpose()).transpose().eval();
     for (double& x : centre) x /= 2;
     free_of_part[p] = static_cast<std::int32_t>(free_.size());
-    free_.push_back({static_cast<std::int32_t>(p), centre, size, V});
+    free_.push_back({static_cast<std::int32_t>(p), centre, size, V, !V.bottomRows(3).isZero()});
   }
   if (free_.empty()) return;
   lattice::for_each_owned(model.layout(), [&](auto i, auto j, auto k, auto) {
@@ -174,26 +174,25 @@ void FreeMotions::for_each_free_node(F&& use) const {
 
 FreeMotions::Sums FreeMotions::work(const double* x, bool absolute) const {
   const std::int64_t nodes = model_.layout().owned_count();
-  Sums sums(free_.size(), Eigen::Matrix<double, 6, 1>::Zero());
+  std::vector<ExactSum> sums(free_.size() * candidates);
   for_each_free_node([&](std::int64_t at, std::size_t f, const Vec3& X) {
-    const auto add = [&](int motion, double term) { sums[f](motion) += absolute ? std::abs(term) : term; };
+    const auto add = [&](int motion, double term) {
+      sums[f * candidates + static_cast<std::size_t>(motion)] += absolute ? std::abs(term) : term;
+    };
+    for (int a = 0; a < 3; ++a) add(a, x[at + a * nodes]);
+    if (!free_[f].turns) return;
     for (int a = 0; a < 3; ++a) {
       const int b = (a + 1) % 3, c = (a + 2) % 3;
       const double u = x[at + a * nodes];
-      add(a, u);
       add(3 + b, X[c] * u);
       add(3 + c, -X[b] * u);
       if (components_ == 6) add(3 + a, 0.5 * x[at + (3 + a) * nodes]);
     }
   });
-  const std::string all = model_.communicator.all_gather(
-      std::string(reinterpret_cast<const char*>(sums.data()), sums.size() * sizeof(sums[0])));
-  Sums total(free_.size(), Eigen::Matrix<double, 6, 1>::Zero());
-  Sums part(free_.size());
-  for (std::size_t from = 0; from < all.size(); from += part.size() * sizeof(part[0])) {
-    std::memcpy(static_cast<void*>(part.data()), all.data() + from, part.size() * sizeof(part[0]));
-    for (std::size_t f = 0; f < part.size(); ++f) total[f] += part[f];
-  }
+  sum_ranks(sums, model_.communicator);
+  Sums total(free_.size());
+  for (std::size_t s = 0; s < sums.size(); ++s)
+    total[s / candidates](static_cast<Eigen::Index>(s % candidates)) = sums[s].value();
   return total;
 }
 

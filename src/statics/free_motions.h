@@ -35,6 +35,7 @@ class FreeMotions {
     Vec3 centre;  ///< [cells]
     double size;  ///< the largest of its extents [cells]
     Eigen::MatrixXd motions;
+    bool turns;  ///< whether some motion is not a translation
   };
   using Sums = std::vector<Eigen::Matrix<double, 6, 1>>;
   /// Work of `x` on the six motions of each free part; with `absolute`, of the absolute values of its terms.

@@ -18,7 +18,6 @@ bool cells_below(const LevelGrid& grid) { return grid.halo->layout().begin()[0] 
 
 bool LevelGrid::can_coarsen() const {
   for (int a = 0; a < 3; ++a) {
-    if (grid.periodic[a] && grid.cells[a] % 2 != 0) return false;
     const auto& borders = partition->borders[a];
     for (std::size_t p = 1; p + 1 < borders.size(); ++p)
       if (borders[p] % 2 != 0) return false;
@@ -41,20 +40,34 @@ LevelGrid LevelGrid::coarsened() const {
   return coarse;
 }
 
-RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& coarse) {
+bool ends_odd_period(const LevelGrid& grid, int axis) {
+  if (!grid.grid.periodic[axis] || grid.grid.cells[axis] % 2 == 0) return false;
+  const lattice::Layout& box = grid.halo->layout();
+  return box.begin()[axis] + box.owned()[axis] == grid.grid.cells[axis];
+}
+
+RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& fine_grid, const LevelGrid& coarse) {
   const Int3 &fine = constants.owned(), &owned = coarse.owned();
   RowField<float> result(owned, constants.components());
+  // The layer that is not there: the last one once more, or nothing. (A period of one cell stays as thick as it is.)
+  std::array<bool, 3> repeats;
+  for (int a = 0; a < 3; ++a) repeats[a] = fine_grid.grid.cells[a] > 1 && ends_odd_period(fine_grid, a);
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j)
       for (int q = 0; q < constants.components(); ++q) {
         float* const to = result.row(j, k) + q * result.pitch();
         for (int r = 0; r < 4; ++r) {
-          const std::int64_t fine_j = 2 * j + (r & 1), fine_k = 2 * k + (r >> 1);
+          std::int64_t fine_j = 2 * j + (r & 1), fine_k = 2 * k + (r >> 1);
+          if (repeats[1]) fine_j = std::min(fine_j, fine[1] - 1);
+          if (repeats[2]) fine_k = std::min(fine_k, fine[2] - 1);
           if (fine_j >= fine[1] || fine_k >= fine[2]) continue;
           const float* const from = constants.row(fine_j, fine_k) + q * constants.pitch();
           for (std::int64_t i = 0; i < owned[0]; ++i) {
             to[i] += 0.25f * from[2 * i];
-            if (2 * i + 1 < fine[0]) to[i] += 0.25f * from[2 * i + 1];
+            if (2 * i + 1 < fine[0])
+              to[i] += 0.25f * from[2 * i + 1];
+            else if (repeats[0])
+              to[i] += 0.25f * from[2 * i];
           }
         }
       }
@@ -127,11 +140,34 @@ void Level::relax(int degree, double bound, bool from_zero) {
   }
 }
 
+// A node on a coarse one gives all it has to that one, also beyond the border of an odd period.
+void Level::clear_ghosts_of_odd_periods() {
+  const Int3& n = grid_.owned();
+  const auto clear = [&](const Int3& lo, const Int3& hi) {
+    for (std::int64_t k = lo[2]; k <= hi[2]; ++k)
+      for (std::int64_t j = lo[1]; j <= hi[1]; ++j)
+        for (int c = 0; c < components_; ++c)
+          std::fill_n(y_.row(j, k) + c * y_.pitch() + lo[0], hi[0] - lo[0] + 1, 0.0f);
+  };
+  for (int a = 0; a < 3; ++a) {
+    if (!grid_.grid.periodic[a] || grid_.grid.cells[a] % 2 == 0) continue;
+    Int3 lo{-1, -1, -1}, hi = n;
+    if (grid_.halo->layout().begin()[a] == 0) {
+      hi[a] = -1;
+      clear(lo, hi);
+    }
+    if (!ends_odd_period(grid_, a)) continue;
+    lo[a] = hi[a] = n[a];
+    clear(lo, hi);
+  }
+}
+
 void Level::restrict_residual(Level& coarse) {
   const auto& kernels = mechanics::relax_kernels();
   for_each_row([&](std::int64_t, std::int64_t, const mechanics::RelaxRow& row) { kernels.residual(row, components_); });
   clear_fixed(fixed_, y_);
   y_.exchange(*grid_.halo);
+  clear_ghosts_of_odd_periods();
 
   const Int3 &fine = grid_.owned(), &owned = coarse.grid_.owned();
   float* const line = line_.row(0, 0);

@@ -20,15 +20,22 @@ struct LevelGrid {
   std::shared_ptr<const lattice::Halo> halo;
 
   const Int3& owned() const { return halo->layout().owned(); }
-  /// Can 2x2x2 cells be merged without crossing ranks or a periodic border?
+  /// Can 2x2x2 cells be merged without crossing ranks?
   bool can_coarsen() const;
-  /// Cells merged 2x2x2; an odd number of cells is padded with an empty layer at the upper side.
+  /// Cells merged 2x2x2. An odd number of cells is padded at the upper side: with an empty layer, in a periodic
+  /// direction with a copy of the last one. There the coarse body has a period one fine cell longer, for the nodes 0
+  /// and n - 1 both lie on coarse ones; the springs across that layer come out half as stiff as they are, those along
+  /// it twice.
   LevelGrid coarsened() const;
 };
 
+/// Whether the rank's last layer of cells along `axis` ends an odd period: nodes next to each other across that border
+/// both lie on coarse nodes.
+bool ends_odd_period(const LevelGrid& grid, int axis);
+
 /// Constants of merged cells, the mean of eight cells at twice the spacing: a quarter of their sum (springs grow with
 /// the spacing). Ghosts included (collective).
-RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& coarse);
+RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& fine, const LevelGrid& coarse);
 
 /// The stiffness K of one level, in single precision, with relaxation. Fixed components and nodes without a cell stay
 /// zero; all functions are collective.
@@ -57,6 +64,7 @@ class Level {
   /// Runs over all rows of owned nodes: use(j, k, row) gets the row with its forces -K x.
   template <class F>
   void for_each_row(F&& use);
+  void clear_ghosts_of_odd_periods();
   mechanics::RelaxRow relax_row(std::int64_t j, std::int64_t k, const float* force);
 
   LevelGrid grid_;

@@ -114,7 +114,7 @@ Hierarchy::Hierarchy(const LevelGrid& grid, int components, const RowField<float
     const bool small = options_.serial ? nodes * components <= direct_unknowns : nodes <= gathered_nodes;
     if (small || !fine.can_coarsen()) break;
     const LevelGrid coarse = fine.coarsened();
-    merged = coarsened(*last, coarse);
+    merged = coarsened(*last, fine, coarse);
     last = &merged;
     FixedNodes held = coarsened(levels_.back()->fixed(), fine.owned(), coarse.owned());
     levels_.push_back(std::make_unique<Level>(coarse, components, merged, std::move(held)));

@@ -10,6 +10,7 @@
 #include "base/out_of_memory.h"
 #include "base/progress.h"
 #include "statics/equilibrium.h"
+#include "statics/exact_vectors.h"
 #include "statics/free_motions.h"
 #include "statics/petsc.h"
 #include "statics/preconditioner.h"
@@ -189,8 +190,10 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(apply_operator)));
   check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
   PetscVec x, b;
-  check(MatCreateVecs(matrix, x.create(), nullptr));
   check(VecCreateMPIWithArray(comm, 1, size, PETSC_DETERMINE, right_hand_side.data(), b.create()));
+  // All vectors of the iteration are copies of b: one that PETSc makes for a single rank would not inherit the sums.
+  use_exact_sums(b);
+  check(VecDuplicate(b, x.create()));
   equilibrium.right_hand_side(right_hand_side.data());
   free.require_balance(right_hand_side.data());
   free.project(right_hand_side.data());

@@ -115,6 +115,10 @@ TEST(Iterations, TwoPhaseBlock) {
   model::Definition periodic = block({28, 24, 36}, mixed);
   periodic.body.periodic = {true, true, false};
   expect_iterations(periodic, 25);
+  // Odd periods are halved too: 29 = 14.5 x 2, 45 = 22.5 x 2.
+  periodic = block({29, 45, 27}, mixed);
+  periodic.body.periodic = {true, true, false};
+  expect_iterations(periodic, 25);
 }
 
 // A cube of 3^3 cells that floats in a hole: six motions that nothing holds, found and left out while nothing pushes

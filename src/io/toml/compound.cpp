@@ -116,7 +116,40 @@ Form<std::array<std::optional<double>, count>> component_table() {
 }  // namespace
 
 Form<Vec3> form(Tag<Vec3>) { return triple<double>(); }
-Form<std::array<bool, 3>> form(Tag<std::array<bool, 3>>) { return triple<bool>(); }
+
+// Axes by their names; three times true or false is read too.
+Form<std::array<bool, 3>> form(Tag<std::array<bool, 3>>) {
+  using Type = std::array<bool, 3>;
+  return {
+      .read =
+          [](const Value& value, const Spec& spec, Type& out) {
+            const auto is_flag = [](const Value& element) { return std::holds_alternative<bool>(element.data); };
+            if (value.array() != nullptr && std::any_of(value.array()->begin(), value.array()->end(), is_flag))
+              return triple<bool>().read(value, spec, out);
+            Spec words_spec = spec;
+            words_spec.allowed = components(3);
+            std::vector<std::string> words;
+            form(Tag<std::vector<std::string>>{}).read(value, words_spec, words);
+            for (std::size_t i = 0; i < 3; ++i)
+              out[i] = std::find(words.begin(), words.end(), model::component_names[i]) != words.end();
+          },
+      .write =
+          [](const Type& value, const Spec&) {
+            std::vector<std::string> texts;
+            for (std::size_t i = 0; i < 3; ++i)
+              if (value[i]) texts.push_back(toml_text(std::string(model::component_names[i])));
+            return list_of(texts);
+          },
+      .expected = [](const Spec&) { return "a list with some of " + quoted_list(components(3)); },
+      .schema =
+          [](const Spec& spec, Json& out) {
+            Json flags;
+            triple<bool>().schema(spec, flags);
+            const Json names{{"type", "array"}, {"items", {{"enum", components(3)}}}, {"uniqueItems", true}};
+            out = {{"anyOf", {names, flags}}};
+          },
+  };
+}
 
 Form<std::array<std::optional<double>, 6>> form(Tag<std::array<std::optional<double>, 6>>) {
   return component_table<6>();

@@ -75,8 +75,7 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
       key<D>("material", &D::material, "Material of the cells, or \"void\".",
              {.required = true, .example = R"("rock")"})
           .only_for("a body without an image", {"image"}, plain),
-      key<D>("periodic", &D::periodic, "Opposite faces across x, y, z are joined.",
-             {.example = "[true, false, false]"}),
+      key<D>("periodic", &D::periodic, "Opposite faces across x, y, z are joined.", {.example = R"(["x", "y"])"}),
       key<D>("image", &D::image, "File of cell values (.npy, .vti, .mha, .mhd, .nrrd, .nhdr), one value a cell.",
              {.example = R"("scan.nrrd")"}),
       key<D>("materials", &D::image_materials, "Material, or \"void\", of each value in the image.",
