@@ -134,16 +134,23 @@ struct DampingDefinition {
 
 /// [analysis]
 struct AnalysisDefinition {
-  /// Equilibrium at once, equilibrium by damped steps, or motion.
-  enum class Type { statics, quasi_static, dynamic };
-  Type type = Type::statics;         ///< what is computed
-  double tolerance = 1e-8;           ///< statics: relative residual; quasi-static: unbalanced-force ratio
+  /// Equilibrium at once, equilibrium by damped steps, motion, or free vibrations.
+  enum class Type { statics, quasi_static, dynamic, modes };
+  Type type = Type::statics;  ///< what is computed
+  /// Statics: relative residual; quasi-static: unbalanced-force ratio; modes: relative error of squared frequencies.
+  double tolerance = 1e-8;
   std::optional<double> duration;    ///< [s], required for dynamic; quasi-static: the most simulated time
   std::optional<double> time_step;   ///< [s]; unset: "auto"
   bool allow_unstable_step = false;  ///< run with a step above the stable limit all the same
   double safety = 0.9;               ///< of the automatic step: its ratio to the stable limit
   DampingDefinition damping;         ///< unset in a dynamic run: none
   std::string start_from;            ///< output directory of an earlier run whose displacements are the start
+  int count = 10;                    ///< modes
+  double near = 0;                   ///< modes: those closest to this frequency [Hz]; 0: the lowest
+  bool allow_floating = false;       ///< modes: of a body in several parts of which some are free
+
+  /// Whether time goes on in steps.
+  bool stepped() const { return type == Type::quasi_static || type == Type::dynamic; }
   bool operator==(const AnalysisDefinition&) const = default;
 };
 

@@ -22,7 +22,7 @@ Communicator communicator(const std::optional<int>& handle) {
 
 py::dict measured(const model::Model& model, const mechanics::Measurement& measurement) {
   py::dict probes;
-  for (std::size_t p = 0; p < model.probes.size(); ++p)
+  for (std::size_t p = 0; p < measurement.probes.size(); ++p)
     probes[py::str(model.probes[p].definition.name)] =
         py::array_t<double>(static_cast<py::ssize_t>(measurement.probes[p].size()), measurement.probes[p].data());
   const mechanics::Balance& balance = measurement.balance;
@@ -35,6 +35,20 @@ py::dict measured(const model::Model& model, const mechanics::Measurement& measu
 void raise_interrupt() {
   const py::gil_scoped_acquire lock;
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
+}
+
+py::list modes_of(const model::Model& model, const driver::Outcome& outcome) {
+  py::list list;
+  if (!outcome.modes) return list;
+  const Int3& n = model.layout().owned();
+  for (const modes::Mode& mode : outcome.modes->modes)
+    list.append(py::dict(py::arg("number") = mode.number, py::arg("frequency") = mode.frequency,
+                         py::arg("residual") = mode.residual, py::arg("modal_mass") = mode.modal_mass,
+                         py::arg("participation") = py::array_t<double>(6, mode.participation.data()),
+                         py::arg("effective_mass") = py::array_t<double>(6, mode.effective_mass.data()),
+                         py::arg("shape") = py::array_t<double>(
+                             std::vector<py::ssize_t>{model.components(), n[2], n[1], n[0]}, mode.shape.data())));
+  return list;
 }
 
 // Runs to the end of the analysis, with files where a directory is given.
@@ -70,7 +84,8 @@ py::dict run_to_end(Simulation& simulation, const std::optional<std::function<bo
       py::arg("iterations") = outcome.solution ? outcome.solution->iterations : 0,
       py::arg("residuals") = py::array_t<double>(static_cast<py::ssize_t>(residuals.size()), residuals.data()),
       py::arg("stopped") = outcome.stopped, py::arg("seconds") = outcome.seconds,
-      py::arg("measurement") = measured(simulation.model(), outcome.measurement));
+      py::arg("measurement") = measured(simulation.model(), outcome.measurement),
+      py::arg("modes") = modes_of(simulation.model(), outcome));
 }
 
 py::array field(Simulation& simulation, const std::string& name) {

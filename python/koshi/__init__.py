@@ -25,7 +25,7 @@ from .case import (
     RunError,
     load,
 )
-from .simulation import Measurement, Result, Simulation, run
+from .simulation import Measurement, Mode, Result, Simulation, run
 from ._koshi import __version__
 
 __all__ = [
@@ -38,6 +38,7 @@ __all__ = [
     "Load",
     "Material",
     "Measurement",
+    "Mode",
     "Output",
     "Probe",
     "Region",

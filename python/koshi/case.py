@@ -161,10 +161,11 @@ class Load:
 class Analysis:
     """What is computed."""
 
-    type: Literal["static", "quasi-static", "dynamic"] | None = None
-    """equilibrium solved directly (default), reached by damped stepping, or motion"""
+    type: Literal["static", "quasi-static", "dynamic", "modes"] | None = None
+    """equilibrium solved directly (default), reached by damped stepping, motion, or natural frequencies"""
     tolerance: float | None = None
-    """static: relative residual; quasi-static: unbalanced-force ratio; default 1e-8"""
+    """static: relative residual; quasi-static: unbalanced-force ratio; modes: relative error of squared frequencies;
+    default 1e-8"""
     duration: Quantity | None = None
     """[s], required for dynamic"""
     time_step: Quantity | None = None
@@ -177,6 +178,12 @@ class Analysis:
     """{"kind": "local", "factor": 0.8} (default of quasi-static), {"kind": "viscous", "rate": ...} or {"kind": "none"}"""
     start_from: str | os.PathLike | None = None
     """output directory of an earlier run whose displacements are the start"""
+    count: int | None = None
+    """number of modes, default 10"""
+    near: Quantity | None = None
+    """modes closest to this frequency [1/s], default 0: the lowest"""
+    allow_floating: bool | None = None
+    """modes of a body in several parts of which some are free, default False"""
 
 
 @dataclass

@@ -25,6 +25,26 @@ class Measurement:
 
 
 @dataclass(frozen=True)
+class Mode:
+    """One way to swing; components are x, y, z and turns about the same axes through the centre of mass."""
+
+    number: int
+    """1: the lowest vibration"""
+    frequency: float
+    """[Hz]"""
+    residual: float
+    """of the eigenvalue problem, over the squared frequency"""
+    modal_mass: float
+    """[kg] of the shape whose largest displacement is 1"""
+    participation: np.ndarray
+    """of the motion of the whole in each direction: 6 factors [1], [m]"""
+    effective_mass: np.ndarray
+    """6 values [kg], [kg m^2]"""
+    shape: np.ndarray
+    """on this rank's nodes, (6 or 3, nz, ny, nx); the largest displacement of the body is 1"""
+
+
+@dataclass(frozen=True)
 class Result:
     """How a run went."""
 
@@ -41,7 +61,9 @@ class Result:
     seconds: float
     """wall time"""
     measurement: Measurement
-    """at the end"""
+    """at the end; empty for modes"""
+    modes: list[Mode]
+    """by frequency, of an analysis of type "modes" """
 
 
 class Simulation:
@@ -124,7 +146,8 @@ class Simulation:
         poll = None if callback is None else lambda: bool(callback(self))
         outcome = self._core.run(poll, None if out is None else os.fspath(out), progress, list(petsc_options))
         measurement = Measurement(**outcome.pop("measurement"))
-        return Result(measurement=measurement, **outcome)
+        modes = [Mode(**mode) for mode in outcome.pop("modes")]
+        return Result(measurement=measurement, modes=modes, **outcome)
 
     def measure(self) -> Measurement:
         """Balance and probes of the present state."""

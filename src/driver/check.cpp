@@ -9,6 +9,7 @@
 #include "driver/simulation.h"
 #include "driver/warnings.h"
 #include "koshi/input.h"
+#include "koshi/modes.h"
 #include "koshi/run.h"
 #include "mechanics/stable_step.h"
 
@@ -48,6 +49,14 @@ std::string explicit_part(const model::Model& model) {
                             duration(1.5 * steps * seconds_per_pass(model, kernel)));
 }
 
+std::string modes_part(const model::Model& model) {
+  const model::AnalysisDefinition& analysis = model.definition.analysis;
+  const std::string free = modes::free_motions(model, analysis);
+  const std::string which = analysis.near == 0 ? "the lowest" : fmt::format("closest to {:.6g} Hz", analysis.near);
+  return fmt::format("modes         {}, {}\nrigid motions {}\n", analysis.count, which,
+                     free.empty() ? "none" : free + "; they are left out");
+}
+
 }  // namespace
 
 std::string check(const model::Definition& definition, const Communicator& communicator) {
@@ -61,7 +70,8 @@ std::string check(const model::Definition& definition, const Communicator& commu
   const double body = model::predicted_memory(model.definition, communicator.size());
   text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB, of it {:.3g} GB for the body\n",
                       model.motion_count, (libraries + body) / 1e9, body / 1e9);
-  if (definition.analysis.type != model::AnalysisDefinition::Type::statics) text += explicit_part(model);
+  if (definition.analysis.stepped()) text += explicit_part(model);
+  if (definition.analysis.type == model::AnalysisDefinition::Type::modes) text += modes_part(model);
   for (const std::string& warning : found) text += "warning       " + escaped(warning) + "\n";
   for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
     text += fmt::format("\n# material {}\n", escaped(definition.materials[m - 1].name)) +

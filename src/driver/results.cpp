@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/escape.h"
+#include "driver/mode_tables.h"
 
 namespace koshi::driver {
 namespace {
@@ -11,7 +12,7 @@ using Json = nlohmann::ordered_json;
 using Type = model::AnalysisDefinition::Type;
 
 constexpr std::array<const char*, 3> families{"edge", "face", "body"};
-constexpr std::array<const char*, 3> types{"static", "quasi-static", "dynamic"};
+constexpr std::array<const char*, 4> types{"static", "quasi-static", "dynamic", "modes"};
 
 Json springs(const model::Model& model) {
   Json all = Json::object();
@@ -40,6 +41,10 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
     if (!s.free_motions.empty()) entry["free_motions"] = s.free_motions;
     return entry;
   }
+  if (outcome.modes) {
+    entry.update(modes_analysis(*outcome.modes));
+    return entry;
+  }
   entry.update({{"steps", outcome.steps},
                 {"time", state.time},
                 {"time_step", outcome.time_step},
@@ -59,6 +64,9 @@ Json performance(const model::Model& model, const Outcome& outcome, const RunMem
     entry["setup_seconds"] = outcome.solution->setup_seconds;
     entry["solve_seconds"] = outcome.solution->solve_seconds;
     entry["unknowns_per_second"] = static_cast<double>(outcome.solution->unknowns) / outcome.seconds;
+  } else if (outcome.modes) {
+    entry["setup_seconds"] = outcome.modes->setup_seconds;
+    entry["solve_seconds"] = outcome.modes->solve_seconds;
   } else {
     entry["node_steps_per_second"] =
         static_cast<double>(model.node_count) * static_cast<double>(outcome.steps) / outcome.seconds;
@@ -95,26 +103,34 @@ nlohmann::ordered_json summary(const model::Model& model, const model::State& st
                                const RunMemory& memory) {
   const mechanics::Measurement& end = outcome.measurement;
   Json probes = Json::object();
-  for (std::size_t p = 0; p < model.probes.size(); ++p) {
+  for (std::size_t p = 0; p < end.probes.size(); ++p) {
     const model::ProbeDefinition& probe = model.probes[p].definition;
     probes[probe.name][mechanics::name_of(probe.quantity)] = end.probes[p];
   }
-  return {{"title", model.definition.title},
-          {"version", KOSHI_VERSION},
-          {"body",
-           {{"cells", model.lattice.grid.cells},
-            {"solid_cells", model.cell_count},
-            {"nodes", model.node_count},
-            {"volume", model.volume()}}},
-          {"springs", springs(model)},
-          {"analysis", analysis(model, state, outcome)},
-          {"probes", probes},
-          {"energy", {{"elastic", end.balance.elastic_energy}, {"kinetic", end.balance.kinetic_energy}}},
-          {"performance", performance(model, outcome, memory)}};
+  Json all{{"title", model.definition.title},
+           {"version", KOSHI_VERSION},
+           {"body",
+            {{"cells", model.lattice.grid.cells},
+             {"solid_cells", model.cell_count},
+             {"nodes", model.node_count},
+             {"volume", model.volume()}}},
+           {"springs", springs(model)},
+           {"analysis", analysis(model, state, outcome)},
+           {"probes", probes},
+           {"energy", {{"elastic", end.balance.elastic_energy}, {"kinetic", end.balance.kinetic_energy}}},
+           {"performance", performance(model, outcome, memory)}};
+  if (outcome.modes) {
+    // A mode has no size, hence neither energy nor values at probes.
+    all.erase("probes");
+    all.erase("energy");
+    all["modes"] = modes_summary(*outcome.modes);
+  }
+  return all;
 }
 
 std::string headline(const model::Model& model, const Outcome& outcome) {
   std::string text;
+  if (outcome.modes) return modes_text(*outcome.modes, outcome.seconds);
   if (outcome.solution) {
     text = fmt::format("equilibrium of {} unknowns in {} iterations, residual {:.1e}, {:.3g} s\n",
                        outcome.solution->unknowns, outcome.solution->iterations, outcome.solution->relative_residual,

@@ -12,6 +12,7 @@
 #include "base/progress.h"
 #include "driver/checkpoints.h"
 #include "driver/fields.h"
+#include "driver/mode_tables.h"
 #include "driver/results.h"
 #include "driver/run_simulation.h"
 #include "io/cell_image.h"
@@ -36,6 +37,9 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   const std::vector<std::string>& warnings = simulation.prepare();
   if (!options.quiet && communicator.is_root())
     for (const std::string& warning : warnings) log_warning(warning);
+  const bool modal = definition.analysis.type == model::AnalysisDefinition::Type::modes;
+  if (modal && !options.restart.empty())
+    throw InputError("a search for modes writes no checkpoints and cannot go on from one; run it without --restart");
   model::State& state = simulation.state();
   Checkpoints checkpoints(model, options.directory);
   std::optional<double> restart_time;
@@ -50,12 +54,13 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
                      io::resolved_toml(io::with_cells_in_file(communicator, definition, options.directory)));
 
   io::FieldWriter field_writer(model, options.directory, restart_time);
-  io::HistoryWriter history(communicator, options.directory, history_columns(model), restart_time);
+  std::optional<io::HistoryWriter> history;
+  if (!modal) history.emplace(communicator, options.directory, history_columns(model), restart_time);
   Progress progress(options.quiet || !communicator.is_root(), definition.title.empty() ? "koshi" : definition.title);
 
   Observer observer;
   observer.history = [&](const mechanics::Measurement& measurement, model::State& at) {
-    history.write(history_row(at.time, measurement));
+    history->write(history_row(at.time, measurement));
   };
   observer.fields = [&](model::State& at, double) {
     while_making("a sample of the fields", [&] {
@@ -67,10 +72,10 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
     progress.update(fraction, details);
     if (outer.progress) outer.progress(fraction, details);
   };
-  // An equilibrium is sought in one go, without checkpoints on the way.
-  const bool statics = definition.analysis.type == model::AnalysisDefinition::Type::statics;
+  // An equilibrium and modes are sought in one go, without checkpoints on the way.
+  const bool at_once = !definition.analysis.stepped();
   observer.poll = [&](model::State& at) {
-    return (statics ? checkpoints.stop_requested() : checkpoints.poll(at)) || (outer.poll && outer.poll(at));
+    return (at_once ? checkpoints.stop_requested() : checkpoints.poll(at)) || (outer.poll && outer.poll(at));
   };
   observer.breathe = outer.breathe;
   observer.diverged = [&](model::State& at) {
@@ -87,19 +92,26 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   if (outcome.solution && communicator.is_root())
     for (const std::string& option : outcome.solution->unused_options)
       fmt::print(stderr, "warning: PETSc option {} was not used; check its name\n", option);
-  if (outcome.stopped && statics && checkpoints.stop_requested())
+  if (outcome.stopped && outcome.solution && checkpoints.stop_requested())
     throw RunError(
         fmt::format("stopped by a signal after {} iterations (relative residual {:.1e}); a static analysis keeps no "
                     "checkpoint: run "
                     "it again",
                     outcome.solution->iterations, outcome.solution->relative_residual));
+  if (modal && outcome.stopped && checkpoints.stop_requested())
+    throw RunError(
+        fmt::format("stopped by a signal after {} iterations; nothing is kept of a search for modes, start it "
+                    "again",
+                    outcome.modes->iterations));
   if (outcome.stopped && checkpoints.stop_requested())
     throw RunError(fmt::format("stopped by a signal at step {} (t = {:.6g} s); go on with --restart {}", state.step,
                                state.time, (options.directory / "checkpoint.h5").string()));
   // An equilibrium may be the start of another run; other runs keep their end when they keep checkpoints at all.
-  const bool equilibrium =
-      statics ? !outcome.stopped : definition.analysis.type != model::AnalysisDefinition::Type::dynamic;
+  const bool equilibrium = modal              ? false
+                           : outcome.solution ? !outcome.stopped
+                                              : definition.analysis.type != model::AnalysisDefinition::Type::dynamic;
   if (equilibrium || definition.output.checkpoint_every || definition.output.checkpoint_wall) checkpoints.write(state);
+  if (modal) io::write_table(communicator, options.directory / "modes.csv", mode_columns(), mode_rows(*outcome.modes));
   const RunMemory memory{peak_memory(communicator), simulation.memory_before(), resident_memory(communicator)};
   io::write_summary(communicator, options.directory, summary(model, state, outcome, memory));
   collectively(communicator, [&] {

@@ -58,7 +58,8 @@ const std::vector<std::string>& Simulation::prepare() {
   std::vector<std::string> found = warnings(*model_);
   const Type type = model_->definition.analysis.type;
   if (type == Type::quasi_static) check_support();
-  if (type != Type::statics) time_step();
+  if (type == Type::modes) modes::free_motions(*model_, model_->definition.analysis);
+  if (model_->definition.analysis.stepped()) time_step();
   return warnings_.emplace(std::move(found));
 }
 
@@ -67,8 +68,10 @@ Outcome Simulation::run(const Observer& observer, const std::vector<std::string>
   prepare();
   stepper_.reset();
   state();
-  Outcome outcome =
-      model_->definition.analysis.type == Type::statics ? run_static(observer, petsc_options) : run_explicit(observer);
+  const Type type = model_->definition.analysis.type;
+  Outcome outcome = type == Type::statics ? run_static(observer, petsc_options)
+                    : type == Type::modes ? run_modes(observer)
+                                          : run_explicit(observer);
   lag_ = outcome.time_step;
   outcome.seconds = now() - start;
   return outcome;
@@ -93,6 +96,33 @@ Outcome Simulation::run_static(const Observer& observer, const std::vector<std::
   if (outcome.stopped) return outcome;
   if (observer.history) observer.history(outcome.measurement, *state_);
   if (observer.fields) observer.fields(*state_, 0);
+  return outcome;
+}
+
+Outcome Simulation::run_modes(const Observer& observer) {
+  const model::AnalysisDefinition& analysis = model_->definition.analysis;
+  modes::ModesOptions options;
+  options.progress = [&](int iteration, int found, double residual) {
+    if (observer.progress) {
+      // Each mode found is a part of the work, and so is the way of the worst one to its residual.
+      const double way = std::clamp(std::log(residual) / (0.5 * std::log(analysis.tolerance)), 0.0, 1.0) + 0.0;
+      observer.progress(std::max(way, static_cast<double>(found) / analysis.count) * 0.99,
+                        fmt::format("iteration {}, {} modes, residual {:.1e}", iteration, found, residual));
+    }
+    if (observer.breathe) observer.breathe();
+    return !(observer.poll && observer.poll(*state_));
+  };
+  Outcome outcome;
+  outcome.modes = modes::find_modes(*model_, options);
+  outcome.stopped = outcome.modes->stopped;
+  for (const modes::Mode& mode : outcome.modes->modes) {
+    modes::fill(*model_, mode, state_->displacement);
+    state_->time = mode.number;
+    if (observer.fields) observer.fields(*state_, 0);
+  }
+  // The state is the body at rest again: a mode has no size of its own.
+  state_->displacement.zero();
+  state_->time = 0;
   return outcome;
 }
 

@@ -9,6 +9,7 @@
 #include "base/memory.h"
 #include "koshi/dynamics.h"
 #include "koshi/model.h"
+#include "koshi/modes.h"
 #include "koshi/statics.h"
 #include "mechanics/measure.h"
 #include "mechanics/stable_step.h"
@@ -21,17 +22,19 @@ struct Outcome {
   double time_step = 0;                          ///< [s]
   std::optional<mechanics::StableStep> stable;   ///< explicit analyses
   std::optional<statics::SolveReport> solution;  ///< static analyses
+  std::optional<modes::ModesReport> modes;       ///< of a search for modes
   bool converged = true;                         ///< quasi-static: the tolerance was reached
   bool stopped = false;                          ///< the observer asked to stop; a static analysis has not converged
   double seconds = 0;                            ///< wall time of stepping or solving
-  mechanics::Measurement measurement;            ///< at the end
+  mechanics::Measurement measurement;            ///< at the end; empty for modes
 };
 
 /// What happens on the way; each may be empty. All are called on all ranks.
 struct Observer {
   /// A row of the history: at the start, at regular intervals and at the end.
   std::function<void(const mechanics::Measurement&, model::State&)> history;
-  /// A sample of the fields: at multiples of output.every and at the end. `dt` as in Meter.
+  /// A sample of the fields: at multiples of output.every and at the end, or one for each mode, whose number stands for
+  /// the time. `dt` as in Meter.
   std::function<void(model::State&, double dt)> fields;
   /// Part of the work done (negative: unknown) and a few words.
   std::function<void(double, const std::string&)> progress;
@@ -83,6 +86,7 @@ class Simulation {
 
  private:
   Outcome run_static(const Observer& observer, const std::vector<std::string>& petsc_options);
+  Outcome run_modes(const Observer& observer);
   Outcome run_explicit(const Observer& observer);
   double choose_step(const mechanics::StableStep& stable) const;
   void check_support() const;

@@ -32,9 +32,19 @@ void check_springs(const model::Model& model, std::vector<std::string>& warnings
                     elastic.poissons_ratio, check.reason, check.remedy);
     if (check.verdict == mechanics::Verdict::refuse)
       throw InputError(definition.places.find("lattice.calibration"), text);
+    if (definition.analysis.type == model::AnalysisDefinition::Type::modes)
+      throw InputError(definition.places.find("lattice.calibration"),
+                       text + "; loose rotations would swing at frequencies that mean nothing");
     // Motion does not excite loose rotations; equilibrium has to determine them.
     if (definition.analysis.type == model::AnalysisDefinition::Type::statics) warnings.push_back(text);
   }
+}
+
+// What a search for modes has no use for.
+void check_unused(const Definition& definition, std::vector<std::string>& warnings) {
+  if (definition.analysis.type != model::AnalysisDefinition::Type::modes) return;
+  if (!definition.loads.empty()) warnings.push_back("loads do not count: modes are vibrations about the unloaded body");
+  if (!definition.probes.empty()) warnings.push_back("probes do not count: the shapes of modes are in fields");
 }
 
 /// Components a boundary prescribes.
@@ -117,6 +127,7 @@ std::vector<std::string> warnings(const model::Model& model) {
   check_springs(model, warnings);
   check_platens(model.definition, warnings);
   check_held_loads(model, warnings);
+  check_unused(model.definition, warnings);
   return warnings;
 }
 

@@ -1,5 +1,7 @@
 #include "io/summary.h"
 
+#include <fmt/format.h>
+
 #include "base/collective.h"
 #include "base/escape.h"
 #include "io/files.h"
@@ -14,6 +16,15 @@ void write_summary(const Communicator& communicator, const std::filesystem::path
     constexpr auto replace = nlohmann::ordered_json::error_handler_t::replace;
     if (communicator.is_root())
       replace_file(directory / "summary.json", escaped(summary.dump(2, ' ', false, replace), true) + "\n");
+  });
+}
+
+void write_table(const Communicator& communicator, const std::filesystem::path& file,
+                 const std::vector<std::string>& columns, const std::vector<std::vector<double>>& rows) {
+  std::string text = fmt::format("{}\n", fmt::join(columns, ","));
+  for (const std::vector<double>& row : rows) text += fmt::format("{}\n", fmt::join(row, ","));
+  collectively(communicator, [&] {
+    if (communicator.is_root()) replace_file(file, text);
   });
 }
 

@@ -3,7 +3,9 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "koshi/communicator.h"
 
@@ -14,6 +16,11 @@ namespace koshi::io {
 /// reason on all ranks; an earlier file then stays as it was.
 void write_summary(const Communicator& communicator, const std::filesystem::path& directory,
                    const nlohmann::ordered_json& summary);
+
+/// Writes a table of numbers as CSV likewise: names with units, then rows as long. Numbers are the shortest that read
+/// back as the same double.
+void write_table(const Communicator& communicator, const std::filesystem::path& file,
+                 const std::vector<std::string>& columns, const std::vector<std::vector<double>>& rows);
 
 /// Writes `resolved.toml` likewise.
 void write_resolved(const Communicator& communicator, const std::filesystem::path& directory, std::string_view toml);

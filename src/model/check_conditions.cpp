@@ -55,6 +55,23 @@ void check_history(const Checker& check, const std::string& path, const History&
   }
 }
 
+// Vibrations are about the body at rest: supports hold or they are none.
+void check_support_of_modes(const Checker& check, const std::string& path, const BoundaryDefinition& boundary) {
+  const auto refuse = [&](const std::string& key, std::size_t c, const std::optional<double>& value) {
+    if (value && *value != 0)
+      check.fail(
+          fmt::format("{}.{}.{}", path, key, component_names[c]),
+          fmt::format("boundary \"{}\" moves its nodes, but modes are vibrations about the body at rest; hold {} "
+                      "by fix, or leave it free",
+                      boundary.name, component_names[c]));
+  };
+  for (std::size_t c = 0; c < 6; ++c) {
+    refuse("displacement", c, boundary.displacement[c]);
+    refuse("velocity", c, boundary.velocity[c]);
+  }
+  for (std::size_t axis = 0; axis < 3; ++axis) refuse("twist", axis, boundary.twist[axis]);
+}
+
 void check_boundary(const Checker& check, const std::string& path, const BoundaryDefinition& boundary) {
   const std::string title = fmt::format("boundary \"{}\"", boundary.name);
   check_selection(check, path, title, boundary.selection);
@@ -107,6 +124,7 @@ void check_boundary(const Checker& check, const std::string& path, const Boundar
                                  title, component_names[c]));
       }
 
+  if (check.definition.analysis.type == AnalysisDefinition::Type::modes) check_support_of_modes(check, path, boundary);
   if (check.definition.analysis.type == AnalysisDefinition::Type::statics)
     for (std::size_t c = 0; c < 6; ++c)
       if (boundary.velocity[c])

@@ -9,6 +9,34 @@
 
 namespace koshi::model {
 
+namespace {
+
+// A mode is a shape without a time.
+void check_output_of_modes(const Checker& check) {
+  const OutputDefinition& output = check.definition.output;
+  for (std::size_t i = 0; i < output.fields.size(); ++i)
+    for (const char* field : {"velocity", "orientation", "reaction"})
+      if (output.fields[i] == field)
+        check.fail(
+            fmt::format("output.fields[{}]", i),
+            fmt::format("a mode is a shape and has no field \"{}\"; take displacement, rotation, strain, stress, "
+                        "energy or material",
+                        field));
+  const auto refuse = [&](const char* key, bool given) {
+    if (given)
+      check.fail(fmt::format("output.{}", key),
+                 fmt::format("{} belongs to runs that go on in time; the search for modes keeps nothing on its way: "
+                             "leave it out",
+                             key));
+  };
+  refuse("every", output.every.has_value());
+  refuse("history_every", output.history_every.has_value());
+  refuse("checkpoint_every", output.checkpoint_every.has_value());
+  refuse("checkpoint_every_wall", output.checkpoint_wall.has_value());
+}
+
+}  // namespace
+
 void check_run(const Checker& check) {
   const AnalysisDefinition& analysis = check.definition.analysis;
   check.within(ranges::tolerance, "analysis.tolerance", analysis.tolerance);
@@ -19,6 +47,10 @@ void check_run(const Checker& check) {
   check.within(ranges::safety, "analysis.safety", analysis.safety);
   check.within(ranges::damping_factor, "analysis.damping.factor", analysis.damping.factor);
   check.within(ranges::damping_rate, "analysis.damping.rate", analysis.damping.rate);
+
+  check.within(ranges::mode_count, "analysis.count", analysis.count);
+  check.within(ranges::frequency, "analysis.near", analysis.near);
+  if (analysis.type == AnalysisDefinition::Type::modes) check_output_of_modes(check);
 
   const OutputDefinition& output = check.definition.output;
   const std::vector<std::string> known(field_names.begin(), field_names.end());

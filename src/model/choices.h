@@ -77,6 +77,7 @@ inline constexpr auto choices<AnalysisDefinition::Type> = std::to_array<Choice<A
     {"static", AnalysisDefinition::Type::statics},
     {"quasi-static", AnalysisDefinition::Type::quasi_static},
     {"dynamic", AnalysisDefinition::Type::dynamic},
+    {"modes", AnalysisDefinition::Type::modes},
 });
 
 template <>

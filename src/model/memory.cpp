@@ -116,6 +116,14 @@ double predicted_memory(const Definition& definition, int ranks) {
   double bytes = 2 + (factors ? 4 : 0) + (plain ? 17 * lattice::slot_count : 0) + 8 * inertias + 16 * components;
   const bool orients = std::count(definition.output.fields.begin(), definition.output.fields.end(), "orientation") != 0;
   const double sample = sample_bytes(definition) * count;
+  if (definition.analysis.type == AnalysisDefinition::Type::modes) {
+    // Vectors, steps and search directions, each with its image, and a few more (modes/eigen_search.h); shapes come
+    // when steps and directions are no longer needed, but before their memory is free.
+    const int width = definition.analysis.count + std::max(2, definition.analysis.count / 5);
+    const double vectors = (6.0 * width + definition.analysis.count + 6) * 8 * components * count;
+    const double solver = solver_bytes(grid, components, ranks) + mixed_bytes(definition, grid, components);
+    return bytes * static_cast<double>(whole.size()) + solver + vectors + sample;
+  }
   if (statics) {
     // The solver's memory is free again when fields are written.
     const double solver = solver_bytes(grid, components, ranks) + mixed_bytes(definition, grid, components);

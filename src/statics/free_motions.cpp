@@ -172,7 +172,7 @@ void FreeMotions::for_each_free_node(F&& use) const {
   });
 }
 
-FreeMotions::Sums FreeMotions::work(const double* x, bool absolute) const {
+FreeMotions::Amounts FreeMotions::work(const double* x, bool absolute) const {
   const std::int64_t nodes = model_.layout().owned_count();
   std::vector<ExactSum> sums(free_.size() * candidates);
   for_each_free_node([&](std::int64_t at, std::size_t f, const Vec3& X) {
@@ -190,7 +190,7 @@ FreeMotions::Sums FreeMotions::work(const double* x, bool absolute) const {
     }
   });
   sum_ranks(sums, model_.communicator);
-  Sums total(free_.size());
+  Amounts total(free_.size(), Eigen::Matrix<double, 6, 1>::Zero());
   for (std::size_t s = 0; s < sums.size(); ++s)
     total[s / candidates](static_cast<Eigen::Index>(s % candidates)) = sums[s].value();
   return total;
@@ -198,9 +198,13 @@ FreeMotions::Sums FreeMotions::work(const double* x, bool absolute) const {
 
 void FreeMotions::project(double* x) const {
   if (free_.empty()) return;
-  Sums motion = work(x, false);
+  Amounts motion = work(x, false);
   for (std::size_t f = 0; f < free_.size(); ++f)
     motion[f] = free_[f].motions * (free_[f].motions.transpose() * motion[f]);
+  subtract(motion, x);
+}
+
+void FreeMotions::subtract(const Amounts& motion, double* x) const {
   const std::int64_t nodes = model_.layout().owned_count();
   for_each_free_node([&](std::int64_t at, std::size_t f, const Vec3& X) {
     for (int a = 0; a < 3; ++a) {
@@ -213,7 +217,7 @@ void FreeMotions::project(double* x) const {
 
 void FreeMotions::require_balance(const double* b) const {
   if (free_.empty()) return;
-  const Sums net = work(b, false), gross = work(b, true);
+  const Amounts net = work(b, false), gross = work(b, true);
   for (std::size_t f = 0; f < free_.size(); ++f) {
     const Eigen::MatrixXd& V = free_[f].motions;
     const Eigen::VectorXd along = V.transpose() * net[f];

@@ -24,6 +24,16 @@ class FreeMotions {
   void require_balance(const double* b) const;
   /// Takes the free motions out of a vector of unknowns (collective).
   void project(double* x) const;
+  /// Amounts of three translations and three rotations about each free part's centre.
+  using Amounts = std::vector<Eigen::Matrix<double, 6, 1>>;
+  /// Work of a vector of unknowns on the six motions of each free part (collective).
+  Amounts work(const double* x) const { return work(x, false); }
+  /// x -= these motions.
+  void subtract(const Amounts& motion, double* x) const;
+  /// Free motions of each free part, columns of Amounts, orthonormal as vectors of unknowns.
+  const Eigen::MatrixXd& motions(std::size_t free_part) const { return free_[free_part].motions; }
+  std::size_t free_part_count() const { return free_.size(); }
+  int part_count() const { return static_cast<int>(parts_.list().size()); }
   /// What is free, in words; empty when nothing is.
   std::string description() const;
 
@@ -37,9 +47,8 @@ class FreeMotions {
     Eigen::MatrixXd motions;
     bool turns;  ///< whether some motion is not a translation
   };
-  using Sums = std::vector<Eigen::Matrix<double, 6, 1>>;
-  /// Work of `x` on the six motions of each free part; with `absolute`, of the absolute values of its terms.
-  Sums work(const double* x, bool absolute) const;
+  /// With `absolute`, work of the absolute values of the terms.
+  Amounts work(const double* x, bool absolute) const;
   template <class F>
   void for_each_free_node(F&& use) const;
   std::string title(std::int32_t part) const;

@@ -52,6 +52,7 @@ struct Tag {};
 
 Form<bool> form(Tag<bool>);
 Form<double> form(Tag<double>);
+Form<int> form(Tag<int>);
 Form<std::string> form(Tag<std::string>);
 Form<Vec3> form(Tag<Vec3>);
 /// Per axis.

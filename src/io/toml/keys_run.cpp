@@ -8,17 +8,23 @@ using namespace model;
 const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
   using D = AnalysisDefinition;
   using Type = D::Type;
-  const auto stepped = [](const D& analysis) { return analysis.type != Type::statics; };
+  const auto stepped = [](const D& analysis) { return analysis.stepped(); };
   const auto of_stepped = [&](Key<D> key) {
     return std::move(key).only_for("type \"quasi-static\" or \"dynamic\"", {"type"}, stepped);
   };
+  const auto of_modes = [](Key<D> key) {
+    return std::move(key).only_for("type \"modes\"", {"type"},
+                                   [](const D& analysis) { return analysis.type == Type::modes; });
+  };
   static const std::vector<Key<D>> keys{
       key<D>("type", &D::type,
-             "Equilibrium solved directly, equilibrium reached by damped stepping, or motion over time."),
+             "Equilibrium solved directly, equilibrium reached by damped stepping, motion over time, or natural "
+             "frequencies."),
       key<D>("tolerance", &D::tolerance,
-             "Static: relative residual of the solution; quasi-static: unbalanced-force ratio at rest.",
+             "Static: relative residual of the solution; quasi-static: unbalanced-force ratio at rest; modes: relative "
+             "error of the squared frequencies.",
              {.range = ranges::tolerance, .example = "1e-6"})
-          .only_for("type \"static\" or \"quasi-static\"", {"type"},
+          .only_for("type \"static\", \"quasi-static\" or \"modes\"", {"type"},
                     [](const D& analysis) { return analysis.type != Type::dynamic; }),
       of_stepped(key<D>("duration", &D::duration,
                         "Simulated time; required for dynamic, the most that quasi-static may take.",
@@ -34,7 +40,14 @@ const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
                         {.title = "damping", .example = R"({kind = "local", factor = 0.8})"})),
       key<D>("start_from", &D::start_from,
              "Output directory of an earlier run whose displacements are the start of this one.",
-             {.example = R"("out/loaded")"}),
+             {.example = R"("out/loaded")"})
+          .only_for("type \"static\", \"quasi-static\" or \"dynamic\"", {"type"},
+                    [](const D& analysis) { return analysis.type != Type::modes; }),
+      of_modes(key<D>("count", &D::count, "Number of modes.", {.range = ranges::mode_count, .example = "10"})),
+      of_modes(key<D>("near", &D::near, "The modes closest to this frequency, of the 200 lowest; \"0 Hz\": the lowest.",
+                      {.dimension = Dimension::rate, .range = ranges::frequency, .example = R"("0 Hz")"})),
+      of_modes(key<D>("allow_floating", &D::allow_floating,
+                      "Go on with a body in several parts of which some are free to move.")),
   };
   return keys;
 }

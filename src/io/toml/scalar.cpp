@@ -96,6 +96,25 @@ Form<double> form(Tag<double>) {
   };
 }
 
+Form<int> form(Tag<int>) {
+  return {
+      .read =
+          [](const Value& value, const Spec& spec, int& out) {
+            const auto* integer = std::get_if<std::int64_t>(&value.data);
+            if (integer == nullptr) wrong_form(value, spec, "a whole number");
+            model::require(spec.range, spec.name, static_cast<double>(*integer), value.place);
+            out = static_cast<int>(*integer);
+          },
+      .write = [](const int& value, const Spec&) { return std::to_string(value); },
+      .expected = [](const Spec&) { return std::string("a whole number"); },
+      .schema =
+          [](const Spec& spec, Json& out) {
+            out["type"] = "integer";
+            range_schema(spec.range, out);
+          },
+  };
+}
+
 Form<std::string> form(Tag<std::string>) {
   return {
       .read =
