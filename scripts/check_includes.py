@@ -63,7 +63,7 @@ LIBRARIES = {
     r"petsc.*": ("PETSc", ["src/statics/"]),
     r"vtk.*": ("VTK", ["src/io/"]),
     r"(hdf5|H5).*": ("HDF5", ["src/io/"]),
-    r"(zlib|bzlib|expat)\.h": ("zlib, bzip2 and expat", ["src/io/"]),
+    r"(zlib|bzlib|expat|tiffio)\.h": ("zlib, bzip2, expat and libtiff", ["src/io/"]),
     r"toml\+\+/.*": ("toml++", ["src/io/"]),
     r"udunits2\.h": ("UDUNITS", ["src/io/"]),
     r"nlohmann/.*": ("JSON", ["src/io/", "src/calibration/", "src/driver/", "src/report/", "src/study/", "apps/"]),

@@ -35,11 +35,11 @@ struct LatticeDefinition {
 
 /// [body]
 struct BodyDefinition {
-  Vec3 origin{};                   ///< lower corner [m]
-  Vec3 size{};                     ///< [m], multiples of the spacing; unset with an image
-  std::string material;            ///< name of the cells' material; unset with an image
-  std::array<bool, 3> periodic{};  ///< opposite faces are joined
-  std::string image;               ///< file of cell values (.npy, .vti, .mha, .mhd, .nrrd, .nhdr); empty: none
+  Vec3 origin{};                               ///< lower corner [m]
+  Vec3 size{};                                 ///< [m], multiples of the spacing; unset with an image
+  std::string material;                        ///< name of the cells' material; unset with an image
+  std::array<bool, 3> periodic{};              ///< opposite faces are joined
+  std::string image;                           ///< file of cell values (docs/guide/cells-from-files.md); empty: none
   std::map<int, std::string> image_materials;  ///< image value -> material name or "void" (key `materials`)
   /// Material of each cell, x fastest, 0 = empty, k = materials[k - 1]; filled from the image, or by a program.
   std::vector<std::uint16_t> cells;

@@ -43,9 +43,12 @@ std::string list_of(const std::set<double>& values) {
 
 CellImage read_image(const std::filesystem::path& file, const char* name, bool fractions) {
   const std::string format = file.extension().string();
+  const bool tiff = format == ".tif" || format == ".tiff", nifti = format == ".nii" || format == ".gz";
   const auto image = std::make_shared<VoxelImage>(format == ".vti"                         ? read_vti_image(file, name)
                                                   : format == ".nrrd" || format == ".nhdr" ? read_nrrd(file)
                                                   : format == ".npy"                       ? read_npy(file)
+                                                  : tiff                                   ? read_tiff(file)
+                                                  : nifti                                  ? read_nifti(file)
                                                                                            : read_metaimage(file));
   check_cubes(*image);
   if (!fractions && !is_whole(image->type))

@@ -76,7 +76,9 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
              {.required = true, .example = R"("rock")"})
           .only_for("a body without an image", {"image"}, plain),
       key<D>("periodic", &D::periodic, "Opposite faces across x, y, z are joined.", {.example = R"(["x", "y"])"}),
-      key<D>("image", &D::image, "File of cell values (.npy, .vti, .mha, .mhd, .nrrd, .nhdr), one value a cell.",
+      key<D>("image", &D::image,
+             "File of cell values, one a cell (.npy, .vti, .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif, .tiff); "
+             "\"*\" in the name of a TIFF file stands for the number of a slice.",
              {.example = R"("scan.nrrd")"}),
       key<D>("materials", &D::image_materials, "Material, or \"void\", of each value in the image.",
              {.required = true, .example = R"({0 = "void", 1 = "rock"})"})

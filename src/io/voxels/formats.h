@@ -18,6 +18,13 @@ VoxelImage read_metaimage(const std::filesystem::path& file);
 /// NRRD (.nrrd, or .nhdr with its data file beside), encodings raw, gzip and bzip2.
 VoxelImage read_nrrd(const std::filesystem::path& file);
 
+/// NIfTI-1 (.nii, .nii.gz).
+VoxelImage read_nifti(const std::filesystem::path& file);
+
+/// TIFF (.tif, .tiff): each page is a layer of cells. "*" in the name stands for the number of a slice; then each file is
+/// one, and none may be missing.
+VoxelImage read_tiff(const std::filesystem::path& file);
+
 /// VTK XML image (.vti): the array of this name on cells, or the only one.
 VoxelImage read_vti_image(const std::filesystem::path& file, const std::string& name);
 

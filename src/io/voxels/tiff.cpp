@@ -1,0 +1,153 @@
+// TIFF: the pages of one file, or one file for each slice, through libtiff.
+#include <fmt/format.h>
+#include <tiffio.h>
+
+#include <algorithm>
+#include <map>
+#include <memory>
+
+#include "io/voxels/formats.h"
+#include "io/voxels/header_text.h"
+#include "koshi/error.h"
+
+namespace koshi::io {
+namespace {
+
+using Tiff = std::unique_ptr<TIFF, void (*)(TIFF*)>;
+
+int keep_silent(TIFF*, void*, const char*, const char*, va_list) { return 1; }
+
+Tiff open(const std::filesystem::path& path) {
+  const std::unique_ptr<TIFFOpenOptions, void (*)(TIFFOpenOptions*)> options(TIFFOpenOptionsAlloc(),
+                                                                             TIFFOpenOptionsFree);
+  if (!options) throw std::bad_alloc();
+  TIFFOpenOptionsSetErrorHandlerExtR(options.get(), keep_silent, nullptr);
+  TIFFOpenOptionsSetWarningHandlerExtR(options.get(), keep_silent, nullptr);
+  Tiff tiff(TIFFOpenExt(path.c_str(), "rm", options.get()), TIFFClose);  // m: no mapping into memory
+  if (!tiff) throw InputError("is no TIFF image that can be read");
+  return tiff;
+}
+
+ValueType type_of(TIFF* tiff) {
+  std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT, samples = 1;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLESPERPIXEL, &samples);
+  if (samples != 1) throw InputError(fmt::format("has {} values a pixel; save it as grey values", samples));
+  using enum ValueType;
+  static const std::map<std::pair<int, int>, ValueType> types{
+      {{SAMPLEFORMAT_UINT, 8}, uint8},      {{SAMPLEFORMAT_UINT, 16}, uint16},   {{SAMPLEFORMAT_UINT, 32}, uint32},
+      {{SAMPLEFORMAT_INT, 8}, int8},        {{SAMPLEFORMAT_INT, 16}, int16},     {{SAMPLEFORMAT_INT, 32}, int32},
+      {{SAMPLEFORMAT_IEEEFP, 32}, float32}, {{SAMPLEFORMAT_IEEEFP, 64}, float64}};
+  const auto at = types.find({format, bits});
+  if (at == types.end()) throw InputError(fmt::format("has values of {} bits; save it with 8, 16 or 32", bits));
+  return at->second;
+}
+
+// Size and type of the page, held against the length of the file: what is not packed must be there, and the packings
+// that are read make no more than 1400 bytes of one.
+VoxelHeader page_header(TIFF* tiff, std::uint64_t file_size) {
+  std::uint32_t width = 0, height = 0;
+  std::uint16_t packing = COMPRESSION_NONE;
+  TIFFGetField(tiff, TIFFTAG_IMAGEWIDTH, &width);
+  TIFFGetField(tiff, TIFFTAG_IMAGELENGTH, &height);
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &packing);
+  if (TIFFIsTiled(tiff) != 0) throw InputError("has tiles; save it in strips");
+  const bool known = packing == COMPRESSION_NONE || packing == COMPRESSION_LZW || packing == COMPRESSION_PACKBITS ||
+                     packing == COMPRESSION_ADOBE_DEFLATE || packing == COMPRESSION_DEFLATE;
+  if (!known)
+    throw InputError(fmt::format("is packed by scheme {}; save it unpacked, or with LZW or deflate", packing));
+  const VoxelHeader header{{width, height, 1}, type_of(tiff), false, {}};
+  if (bytes_of(header) / (packing == COMPRESSION_NONE ? 1 : 1400) > file_size)
+    throw InputError(fmt::format("is cut short: a page of {} cannot be in {} bytes", words_of(header), file_size));
+  return header;
+}
+
+// Appends the values of the page, in the machine's order.
+void append_page(TIFF* tiff, const VoxelHeader& page, std::vector<std::byte>& bytes) {
+  std::size_t at = bytes.size();
+  bytes.resize(at + static_cast<std::size_t>(bytes_of(page)));
+  std::uint32_t rows = 0;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_ROWSPERSTRIP, &rows);
+  const auto height = static_cast<std::uint32_t>(page.size[1]);
+  rows = std::min(rows, height);
+  if (rows == 0) throw InputError("has a page without rows");
+  const std::size_t row = static_cast<std::size_t>(page.size[0]) * size_of(page.type);
+  for (std::uint32_t first = 0, strip = 0; first < height; first += rows, ++strip) {
+    const std::size_t wanted = row * std::min(rows, height - first);
+    const tmsize_t got = TIFFReadEncodedStrip(tiff, strip, bytes.data() + at, static_cast<tmsize_t>(wanted));
+    if (got != static_cast<tmsize_t>(wanted)) throw InputError("has a page that is damaged or cut short");
+    at += wanted;
+  }
+}
+
+void append_pages(const std::filesystem::path& path, VoxelImage& image) {
+  const InputFile file(path);  // refuses what is no regular file
+  const Tiff tiff = open(path);
+  do {
+    const VoxelHeader page = page_header(tiff.get(), file.size());
+    if (image.size[2] == 0) {
+      image.size = page.size;
+      image.type = page.type;
+    } else if (image.size[0] != page.size[0] || image.size[1] != page.size[1] || image.type != page.type) {
+      throw InputError(fmt::format("has a page of {} x {} {}, but those before are of {} x {} {}", page.size[0],
+                                   page.size[1], name_of(page.type), image.size[0], image.size[1],
+                                   name_of(image.type)));
+    } else {
+      ++image.size[2];
+    }
+    // A page may be a lie that repeats one strip; memory is bounded by the number of pages.
+    if (image.size[2] > 65535) throw InputError("has more than 65535 pages");
+    append_page(tiff.get(), page, image.bytes);
+  } while (TIFFReadDirectory(tiff.get()) == 1);
+  if (TIFFLastDirectory(tiff.get()) == 0) throw InputError("has a page that cannot be read");
+}
+
+// Files whose names differ from the pattern's only by a number in place of "*", by their numbers.
+std::map<std::int64_t, std::filesystem::path> slices_of(const std::filesystem::path& pattern) {
+  const std::string name = pattern.filename().string();
+  const std::size_t star = name.find('*');
+  const std::string before = name.substr(0, star), after = name.substr(star + 1);
+  std::filesystem::path folder = pattern.parent_path();
+  if (folder.empty()) folder = ".";
+  std::error_code error;
+  std::map<std::int64_t, std::filesystem::path> slices;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
+    const std::string file = entry.path().filename().string();
+    if (file.size() <= before.size() + after.size() || !file.starts_with(before) || !file.ends_with(after)) continue;
+    const auto digits = std::string_view(file).substr(before.size(), file.size() - before.size() - after.size());
+    const auto number = whole_number(digits);
+    if (!number || *number < 0) continue;
+    if (!slices.emplace(*number, entry.path()).second)
+      throw InputError(fmt::format("names two files of the number {}", *number));
+  }
+  if (error) throw InputError(fmt::format("is in a folder that cannot be read ({})", error.message()));
+  if (slices.empty()) throw InputError("names no file; \"*\" stands for the number of a slice");
+  return slices;
+}
+
+}  // namespace
+
+VoxelImage read_tiff(const std::filesystem::path& path) {
+  VoxelImage image;
+  if (path.filename().string().find('*') == std::string::npos) {
+    append_pages(path, image);
+  } else {
+    std::optional<std::int64_t> last;
+    for (const auto& [number, slice] : slices_of(path)) {
+      if (last && number != *last + 1)
+        throw InputError(fmt::format("misses slice {}: slice {} follows {}", *last + 1, number, *last));
+      last = number;
+      try {
+        append_pages(slice, image);
+      } catch (const InputError& error) {
+        throw InputError(
+            fmt::format("names the slice {}, which {}", shown(slice.filename().string()), error.message()));
+      }
+    }
+  }
+  image.stride = {1, image.size[0], image.size[0] * image.size[1]};
+  return image;
+}
+
+}  // namespace koshi::io
