@@ -52,11 +52,10 @@ CellImage read_image(const std::filesystem::path& file, const char* name, bool f
                                                                                            : read_metaimage(file));
   check_cubes(*image);
   if (!fractions && !is_whole(image->type))
-    throw InputError(fmt::format("holds values of the type {}, not whole numbers; convert it to uint8, say",
-                                 name_of(image->type)));
-  return {image->size, image->stride, [image](std::int64_t i) {
-            return value_at(image->bytes, image->type, static_cast<std::size_t>(i));
-          }};
+    throw InputError(
+        fmt::format("holds values of the type {}, not whole numbers; convert it to uint8, say", name_of(image->type)));
+  return {image->size, image->stride,
+          [image](std::int64_t i) { return value_at(image->bytes, image->type, static_cast<std::size_t>(i)); }};
 }
 
 // Calls f(value) for every cell, x fastest.

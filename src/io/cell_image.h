@@ -17,8 +17,9 @@ struct CellImage {
   std::function<double(std::int64_t)> value;
 };
 
-/// Reads .npy (axes [z][y][x]), .vti (values on cells), .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif or .tiff (values of voxels): whole
-/// numbers or bool, as materials have. Voxels must be cubes; their size and the origin in the file do not count. Errors: InputError without a place.
+/// Reads .npy (axes [z][y][x]), .vti (values on cells), .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif or .tiff (values
+/// of voxels): whole numbers or bool, as materials have. Voxels must be cubes; their size and the origin in the file do
+/// not count. Errors: InputError without a place.
 CellImage read_cell_image(const std::filesystem::path& file);
 
 /// The same with whole numbers or fractions, as factors have.

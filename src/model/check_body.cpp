@@ -83,7 +83,8 @@ void check_material_name(const Checker& check, const std::string& path, const st
 
 // Formats of files with a value for each cell.
 void check_cell_file(const Checker& check, const std::string& path, const std::string& what, const std::string& file) {
-  const std::vector<std::string> formats{".npy", ".vti", ".mha", ".mhd", ".nrrd", ".nhdr", ".tif", ".tiff", ".nii", ".nii.gz"};
+  const std::vector<std::string> formats{".npy",  ".vti", ".mha",  ".mhd", ".nrrd",
+                                         ".nhdr", ".tif", ".tiff", ".nii", ".nii.gz"};
   if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return file.ends_with(suffix); }))
     check.fail(path, fmt::format("{} \"{}\" is in no known format; known: {}", what, file, quoted_list(formats)));
 }

@@ -20,7 +20,7 @@ std::string piece(int x) {
   const std::string extent = std::to_string(x) + " " + std::to_string(x + 1) + " 0 1 0 1";
   return "<VTKFile type=\"ImageData\"><ImageData WholeExtent=\"" + extent + "\"><Piece Extent=\"" + extent +
          "\"><PointData><DataArray type=\"Float64\" Name=\"u\" format=\"ascii\">1 2 3 4 5 6 7 8</DataArray></PointData>"
-         "<CellData><DataArray type=\"UInt8\" Name=\"material\" format=\"ascii\">1</DataArray></CellData></Piece>"
+         "<CellData><DataArray type=\"UInt16\" Name=\"material\" format=\"ascii\">1</DataArray></CellData></Piece>"
          "</ImageData></VTKFile>";
 }
 const std::string whole =

@@ -7,8 +7,8 @@
 
 namespace koshi::test {
 
-inline void fuzz_image(io::VoxelImage (*read)(const std::filesystem::path&), const std::uint8_t* data,
-                       std::size_t size) {
+template <class Read>
+void fuzz_image(Read&& read, const std::uint8_t* data, std::size_t size) {
   const MemoryFile file(data, size);
   io::VoxelImage image;
   try {

@@ -98,8 +98,10 @@ TEST_F(FactorsTest, WhatIsWrongIsSaidAtTheKey) {
               ThrowsMessage<InputError>(
                   HasSubstr("case.toml:11:10: error: the file \"f.txt\" is in no known format; known: ")));
   write<std::complex<float>>("complex.npy", "<c8", {4, 3, 2}, 0);
-  expect_refused(read("complex.npy"), "the file \"" + (directory / "complex.npy").native() +
-                                          "\" holds values of the type \"'<c8'\", no numbers of 1 to 8 bytes; convert it with astype(\"uint8\")");
+  expect_refused(
+      read("complex.npy"),
+      "the file \"" + (directory / "complex.npy").native() +
+          "\" holds values of the type \"'<c8'\", no numbers of 1 to 8 bytes; convert it with astype(\"uint8\")");
 }
 
 TEST_F(FactorsTest, PlainSpringsHaveNone) {

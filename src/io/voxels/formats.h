@@ -21,8 +21,8 @@ VoxelImage read_nrrd(const std::filesystem::path& file);
 /// NIfTI-1 (.nii, .nii.gz).
 VoxelImage read_nifti(const std::filesystem::path& file);
 
-/// TIFF (.tif, .tiff): each page is a layer of cells. "*" in the name stands for the number of a slice; then each file is
-/// one, and none may be missing.
+/// TIFF (.tif, .tiff): each page is a layer of cells. "*" in the name stands for the number of a slice; then each file
+/// is one, and none may be missing.
 VoxelImage read_tiff(const std::filesystem::path& file);
 
 /// VTK XML image (.vti): the array of this name on cells, or the only one.
