@@ -39,7 +39,7 @@ struct BodyDefinition {
   Vec3 size{};                                 ///< [m], multiples of the spacing; unset with an image
   std::string material;                        ///< name of the cells' material; unset with an image
   std::array<bool, 3> periodic{};              ///< opposite faces are joined
-  std::string image;                           ///< file of cell values (docs/guide/cells-from-files.md); empty: none
+  std::string image;                           ///< file of cell values (.npy, .vti, .mha, .mhd, .nrrd); empty: none
   std::map<int, std::string> image_materials;  ///< image value -> material name or "void" (key `materials`)
   /// Material of each cell, x fastest, 0 = empty, k = materials[k - 1]; filled from the image, or by a program.
   std::vector<std::uint16_t> cells;
