@@ -57,7 +57,7 @@ std::vector<double> dense_frequencies(const model::Model& model) {
   });
   const auto size = static_cast<Eigen::Index>(free.size());
   Eigen::MatrixXd K(size, size), M = Eigen::MatrixXd::Zero(size, size);
-  mechanics::ForceKernel<double> kernel(model.lattice);
+  mechanics::ForceKernel kernel(model.lattice);
   for (Eigen::Index column = 0; column < size; ++column) {
     const auto [c, n] = free[static_cast<std::size_t>(column)];
     u.zero();
