@@ -14,38 +14,45 @@ CellLaw::CellLaw(const material::Elastic& elastic, const material::Fracture& fra
       friction_(std::tan(fracture.residual_friction_angle)),
       d_(d) {}
 
-Softening CellLaw::softening(const Vec3& normal, double strength_factor) const {
-  return {fracture_.softening, youngs_modulus_, strength_factor * fracture_.tensile_strength, fracture_.fracture_energy,
-          band_width(d_, normal)};
+double CellLaw::threshold_of(const Vec3& normal, double strength_factor) const {
+  return threshold(youngs_modulus_, strength_factor * fracture_.tensile_strength, fracture_.fracture_energy,
+                   band_width(d_, normal));
 }
 
 double CellLaw::safe(double strength_factor) const {
   // The widest band, across a body diagonal, breaks first.
   const double side = std::numbers::inv_sqrt3;
-  return softening({side, side, side}, strength_factor).threshold();
+  return threshold_of({side, side, side}, strength_factor);
 }
 
 std::optional<Crack> CellLaw::onset(const Tensor6& strain, double strength_factor) const {
   const Principal stress = principal(elastic_stress(lambda_, mu_, strain));
-  const double kappa = criterion_.equivalent(stress.value) / youngs_modulus_;
-  const Vec3 normal = criterion_.normal(stress);
-  const Softening law = softening(normal, strength_factor);
-  if (kappa <= law.threshold()) return std::nullopt;
   Crack crack;
-  crack.normal = normal;
-  crack.strength = strength_factor;
-  crack.kappa = kappa;
-  crack.damage = law.damage(kappa);
+  crack.kappa = criterion_.equivalent(stress.value) / youngs_modulus_;
+  crack.normal = criterion_.normal(stress);
+  crack.limit = threshold_of(crack.normal, strength_factor);
+  if (crack.kappa <= crack.limit) return std::nullopt;
+
+  // A little beyond the limit already: the onset was at the same strain scaled down to it.
+  const double beyond = crack.kappa / crack.limit;
+  crack.onset = energy(strain) / (beyond * beyond);
+  // Cells that shear under pressure store much more than the crack of a tensile test takes; they soften by the same
+  // law.
+  const double stored =
+      criterion_.shears(stress.value) ? 0.5 * youngs_modulus_ * crack.limit * crack.limit : crack.onset;
+  crack.ratio = fracture_.fracture_energy / band_width(d_, crack.normal) / stored;
   return crack;
 }
 
-void CellLaw::soften(Crack& crack, const Tensor6& strain) const {
-  if (bound(strain) <= crack.kappa) return;
+void CellLaw::soften(Crack& crack, const Tensor6& strain, double energy) const {
   const Principal stress = principal(elastic_stress(lambda_, mu_, strain));
   const double kappa = criterion_.equivalent(stress.value) / youngs_modulus_;
-  if (kappa <= crack.kappa) return;
+  if (kappa < crack.kappa) return;
   crack.kappa = kappa;
-  crack.damage = softening(crack.normal, crack.strength).damage(kappa);
+  const double before = crack.damage;
+  const Softening law(fracture_.softening, crack.ratio);
+  crack.damage = law.damage(before, crack.taken, kappa / crack.limit, energy / crack.onset);
+  crack.taken += (crack.damage - before) * energy / crack.onset;
 }
 
 double CellLaw::slide_faces(Crack& crack, const Tensor6& strain) const {

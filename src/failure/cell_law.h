@@ -10,13 +10,16 @@
 
 namespace koshi::failure {
 
-/// What a cracked cell remembers. A cell that never reached its strength has none.
+/// What a cracked cell remembers. A cell that never reached its strength has kappa = 0.
 struct Crack {
-  Vec3 normal{};        ///< of the plane that cracked first; stays
-  Vec3 slip{};          ///< of the closed faces over the cell's width
-  double strength = 1;  ///< factor on the material's strength
-  double kappa = 0;     ///< largest equivalent strain so far
-  double damage = 0;    ///< omega: the cell's springs count 1 - omega; never falls
+  Vec3 normal{};      ///< of the plane that cracked first; stays
+  Vec3 slip{};        ///< of the closed faces over the cell's width
+  double kappa = 0;   ///< largest equivalent strain so far
+  double limit = 0;   ///< equivalent strain at the onset
+  double onset = 0;   ///< elastic energy at the onset [J/m^3]
+  double ratio = 0;   ///< energy that the crack takes in all, over that
+  double taken = 0;   ///< energy that it has taken so far, over that
+  double damage = 0;  ///< omega: the cell's springs count 1 - omega; never falls
 };
 
 /// The law of one material in cells of side d [m].
@@ -26,14 +29,20 @@ class CellLaw {
 
   /// Equivalent strain below which no cell cracks whose strength has this factor, whatever the direction.
   double safe(double strength_factor) const;
-  /// Never below the equivalent strain (equivalent elastic stress)/E at this strain; cheap.
-  double bound(const Tensor6& strain) const {
-    return criterion_.bound(elastic_stress(lambda_, mu_, strain)) / youngs_modulus_;
+  /// Never below the equivalent strain (equivalent elastic stress)/E at a strain with this mean and radius: the stress
+  /// has the mean (3 lambda + 2 mu) p and the radius 2 mu r.
+  Bound bound() const {
+    const Bound of = criterion_.bound();
+    const double p = (3 * lambda_ + 2 * mu_) / youngs_modulus_, r = 2 * mu_ / youngs_modulus_;
+    return {p * of.p_1, r * of.r_1, p * of.p_2, r * of.r_2};
   }
-  /// A cell without a crack at this strain: the crack it gets, or nothing.
+  /// A cell without a crack at this strain: the crack that begins, without damage yet, or nothing.
   std::optional<Crack> onset(const Tensor6& strain, double strength_factor) const;
-  /// Raises kappa and the damage of a cracked cell to what this strain asks for.
-  void soften(Crack& crack, const Tensor6& strain) const;
+  /// Raises the damage of a cracked cell to what this strain asks for; `energy` [J/m^3] is what the intact cell would
+  /// store more than its closed faces do, which damage takes.
+  void soften(Crack& crack, const Tensor6& strain, double energy) const;
+  /// Energy of the intact cell [J/m^3].
+  double energy(const Tensor6& strain) const { return elastic_energy(lambda_, mu_, strain); }
   /// Lets the closed faces of the crack slide as far as their friction lets them; the energy [J/m^3] that takes, for a
   /// fully cracked cell.
   double slide_faces(Crack& crack, const Tensor6& strain) const;
@@ -43,7 +52,7 @@ class CellLaw {
   }
 
  private:
-  Softening softening(const Vec3& normal, double strength_factor) const;
+  double threshold_of(const Vec3& normal, double strength_factor) const;
 
   double youngs_modulus_, lambda_, mu_;
   material::Fracture fracture_;

@@ -1,6 +1,5 @@
 #include "failure/criterion.h"
 
-#include <algorithm>
 #include <numbers>
 
 namespace koshi::failure {
@@ -15,18 +14,8 @@ Criterion::Criterion(const material::Fracture& fracture) {
 }
 
 Vec3 Criterion::normal(const Principal& stress) const {
-  const double tension = stress.value[0], shear = ratio_ * (m_ * stress.value[0] - stress.value[2]);
-  if (tension >= shear) return stress.direction[0];
+  if (!shears(stress.value)) return stress.direction[0];
   return shear_[0] * stress.direction[0] + shear_[2] * stress.direction[2];
-}
-
-double Criterion::bound(const Tensor6& stress) const {
-  // With the mean stress p and the radius r of the deviator, principal stresses are p + r cos(angle), the angles 120
-  // degrees apart: s1 <= p + r, and m s1 - s3 is (m - 1) p plus a cosine of amplitude r sqrt(m^2 + m + 1).
-  const double p = (stress[0] + stress[1] + stress[2]) / 3;
-  const double deviator = square(stress) - 3 * p * p;
-  const double r = std::sqrt(2.0 / 3 * std::max(deviator, 0.0));
-  return std::max(p + r, ratio_ * ((m_ - 1) * p + spread_ * r));
 }
 
 }  // namespace koshi::failure

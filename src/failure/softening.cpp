@@ -2,39 +2,34 @@
 
 namespace koshi::failure {
 
-Softening::Softening(material::Softening kind, double youngs_modulus, double strength, double fracture_energy,
-                     double width)
-    : kind_(kind), youngs_modulus_(youngs_modulus) {
-  const double g = fracture_energy / width;
-  if (width >= width_limit(youngs_modulus, strength, fracture_energy)) {
-    threshold_ = std::sqrt(2 * g / youngs_modulus);
-    scale_ = 0;
-    return;
-  }
-  threshold_ = strength / youngs_modulus;
-  // Area under the stress-strain curve is g: a triangle, or the elastic triangle and the tail f_t scale.
-  scale_ = kind == material::Softening::linear ? 2 * g / strength : g / strength - threshold_ / 2;
+// Uniaxial tension by x times the strain of the onset, elastic energy x^2: where the stress falls as s(x), the crack
+// has taken the area under s less the triangle s x/2, twice, since areas are in units of twice the energy. On the line
+// from s(1) = 1 to s(ratio) = 0 that is ratio (1 - s); for s = exp(-(x - 1)/b), 2b = ratio - 1, it is 1 + 2b (1 - s) -
+// s x.
+double Softening::taken(double strength) const {
+  if (kind_ == material::Softening::linear) return ratio_ * (1 - strength);
+  if (strength <= 0) return ratio_;
+  return ratio_ - strength * (ratio_ - 0.5 * (ratio_ - 1) * std::log(strength));
 }
 
-double Softening::damage(double kappa) const {
-  if (kappa <= threshold_) return 0;
-  if (scale_ == 0) return 1;
-  if (kind_ == material::Softening::exponential)
-    return 1 - threshold_ / kappa * std::exp(-(kappa - threshold_) / scale_);
-  return kappa >= scale_ ? 1 : scale_ / (scale_ - threshold_) * (1 - threshold_ / kappa);
-}
-
-double Softening::dissipated(double kappa) const {
-  if (kappa <= threshold_) return 0;
-  const double strength = youngs_modulus_ * threshold_, elastic = 0.5 * strength * threshold_;
-  if (scale_ == 0) return elastic;
-  // Work of the stress, less the energy that is left.
-  if (kind_ == material::Softening::exponential) {
-    const double left = std::exp(-(kappa - threshold_) / scale_);
-    return elastic + strength * scale_ * (1 - left) - 0.5 * strength * kappa * left;
+double Softening::damage(double damage, double before, double stress, double energy) const {
+  if (ratio_ <= 1) return stress > 1 ? 1 : damage;
+  // What is missing to the energy at which the strength would be `strength`, if damage brought the stress down to that.
+  const auto missing = [&](double strength) {
+    return taken(strength) - before - energy * (1 - strength / stress - damage);
+  };
+  double high = (1 - damage) * stress, low = 0;
+  const double strongest = std::min(high, 1.0);
+  if (high <= 1 && missing(high) >= 0) return damage;
+  // More energy than is left for the crack: it runs through the cell at once.
+  if (missing(0) <= 0) return 1;
+  // The strength lies between 0, where energy is missing, and where there is too much of it.
+  high = strongest;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (missing(middle) > 0 ? low : high) = middle;
   }
-  if (kappa >= scale_) return 0.5 * strength * scale_;
-  return 0.5 * strength * scale_ * (kappa - threshold_) / (scale_ - threshold_);
+  return std::max(damage, 1 - low / stress);
 }
 
 }  // namespace koshi::failure

@@ -2,6 +2,7 @@
 // energy for each area of crack (theory, section 12).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "koshi/fracture.h"
@@ -18,26 +19,29 @@ inline double width_limit(double youngs_modulus, double strength, double fractur
   return 2 * youngs_modulus * fracture_energy / (strength * strength);
 }
 
-/// Damage 0 <= omega <= 1 of a cell by the largest equivalent strain kappa = (equivalent stress)/E it has seen. Stress
-/// is (1 - omega) times the elastic one.
+/// Equivalent strain at which a cell cracks: f_t/E; sqrt(2 G_f/(E h)) in a band of width h [m] beyond width_limit().
+inline double threshold(double youngs_modulus, double strength, double fracture_energy, double width) {
+  return std::min(strength / youngs_modulus, std::sqrt(2 * fracture_energy / (youngs_modulus * width)));
+}
+
+/// Strength of a cell by the energy its crack has taken. Stresses are over the strength at the onset, energies over the
+/// elastic energy at the onset.
 class Softening {
  public:
-  /// E [Pa], f_t [Pa], G_f [J/m^2], width h of the crack band [m]; all > 0. A band wider than width_limit() keeps G_f
-  /// and breaks at once at the lower strength sqrt(2 E G_f/h).
-  Softening(material::Softening kind, double youngs_modulus, double strength, double fracture_energy, double width);
+  /// `ratio`, > 0: the energy that the crack takes in all; up to 1 the cell breaks at once.
+  Softening(material::Softening kind, double ratio) : kind_(kind), ratio_(ratio) {}
 
-  /// Damage at kappa; 0 up to threshold().
-  double damage(double kappa) const;
-  /// Energy [J/m^3] that uniaxial tension up to kappa has taken for good; G_f/h in the end.
-  double dissipated(double kappa) const;
-  /// kappa at which damage starts.
-  double threshold() const { return threshold_; }
+  /// Energy taken when the strength has fallen to 0 <= strength <= 1: from 0 to ratio.
+  double taken(double strength) const;
+
+  /// Damage of a cell that had `damage` and whose crack had taken `taken`, when the elastic stress grows to `stress`,
+  /// and damage takes `energy` for each unit: the least, not below `damage`, at which (1 - damage) stress is no more
+  /// than the strength that is left.
+  double damage(double damage, double taken, double stress, double energy) const;
 
  private:
   material::Softening kind_;
-  double youngs_modulus_;
-  double threshold_;  // e0
-  double scale_;      // linear: kappa at which nothing is left; exponential: decay of the stress with kappa; 0: at once
+  double ratio_;
 };
 
 }  // namespace koshi::failure
