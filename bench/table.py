@@ -12,13 +12,9 @@ import sys
 
 # Bytes between memory and processor and floating-point operations, per node and step.
 BYTES = {"rotational": 208, "least-squares": 104}
-BOND_BYTES = 14  # classes of 13 bonds and the material of a cell, where materials are mixed
-OPERATIONS = {
-    ("rotational", "uniform"): 340,
-    ("least-squares", "uniform"): 130,
-    ("rotational", "mixed"): 950,
-    ("least-squares", "mixed"): 740,
-}
+CELL_BYTES = 6  # the material of a cell and its factor, where cells differ
+OPERATIONS = {"rotational": 577, "least-squares": 199}
+PREPARATION = 31  # operations for the constants of a cell, where cells differ
 
 
 def read(path):
@@ -35,9 +31,10 @@ def read(path):
 def limit(name, rates):
     """Million node-steps/s that memory and arithmetic of the machine would allow."""
     kinematics = "rotational" if "rotational" in name else "least-squares"
-    body = "mixed" if "mixed" in name else "uniform"
-    count = BYTES[kinematics] + (BOND_BYTES if body == "mixed" else 0)
-    return min(1e3 * rates["triad"] / count, 1e3 * rates["fused_multiply_add"] / OPERATIONS[kinematics, body])
+    mixed = "mixed" in name
+    count = BYTES[kinematics] + (CELL_BYTES if mixed else 0)
+    operations = OPERATIONS[kinematics] + (PREPARATION if mixed else 0)
+    return min(1e3 * rates["triad"] / count, 1e3 * rates["fused_multiply_add"] / operations)
 
 
 def main(paths):
