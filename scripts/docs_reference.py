@@ -66,10 +66,14 @@ def kind(schema):
     """What a value looks like, in words."""
     if "enum" in schema:
         return "one of " + ", ".join(code(toml(word)) for word in schema["enum"])
+    if "anyOf" in schema:
+        return ", or ".join(kind(way) for way in schema["anyOf"])
     type_ = schema["type"]
     if type_ == ["number", "string"]:
         words = f"quantity [{schema['unit']}]" if "unit" in schema else "number"
         return ", ".join(part for part in (words, limits(schema)) if part)
+    if type_ == "integer":
+        return ", ".join(part for part in ("whole number", limits(schema)) if part)
     if type_ == "array":
         items = schema["items"]
         if "prefixItems" in items:

@@ -18,8 +18,8 @@ namespace {
 
 // What was printed must have arrived: a full disk behind "> file" is a failure.
 int finish(int code) {
-  std::cout.flush();
   errno = 0;
+  std::cout.flush();
   if (std::fflush(stdout) == 0 && std::cout) return code;
   std::cerr << "error: cannot write to the standard output: " << koshi::io::system_reason(errno != 0 ? errno : EIO)
             << '\n';

@@ -107,8 +107,8 @@ void make_bonds(const SpringLattice& body, lattice::Field<double>& bond, lattice
   bond_cells = lattice::Field<std::uint8_t>(body.layout, lattice::slot_count);
   const std::uint16_t* cell = body.cell.component(0);
   for (int slot = 0; slot < lattice::slot_count; ++slot) {
-    const auto& [s, family] = lattice::slots[slot];
-    const auto around = offsets_around(body.layout, s);
+    const int family = lattice::slots[slot].family;
+    const auto around = offsets_around(body.layout, lattice::slots[slot].s);
     lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
       double kn = 0, kt = 0;
       int solid = 0;

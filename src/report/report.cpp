@@ -98,9 +98,12 @@ void add_summary(json& data, const model::Definition& definition, const json& su
 // Names with characters that a page would not show, or would take for directions, are shown escaped.
 json shown(json data) {
   if (data.is_string()) return escaped(data.get_ref<const std::string&>(), true);
-  if (data.is_structured())
+  if (data.is_array())
     for (auto& element : data) element = shown(std::move(element));
-  return data;
+  if (!data.is_object()) return data;
+  json object = json::object();
+  for (auto& [name, value] : data.items()) object[escaped(name, true)] = shown(std::move(value));
+  return object;
 }
 
 }  // namespace

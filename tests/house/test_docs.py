@@ -99,7 +99,8 @@ def keys(value, path=""):
 def compare_keys(folder):
     """The page of the output directory lists the keys that summaries have, and no others."""
     page = (ROOT / "docs/formats/output.md").read_text(encoding="utf-8")
-    listed = set(re.findall(r"`([\w.<>]+)`", page[page.index("## summary.json") :])) - {"null", "face", "body"}
+    section = page[page.index("## summary.json\n") :].split("\n## ")[0]
+    listed = set(re.findall(r"`([\w.<>]+)`", section)) - {"null", "face", "body"}
     there = set().union(*(keys(json.loads((folder / f"out/{run}/summary.json").read_text())) for run in ("paper", "exact", "smooth")))
     there = {key for key in there if not re.search(r"\.(face|body)\.k[nt]$", key)}
     assert listed == there, listed ^ there

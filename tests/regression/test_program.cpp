@@ -158,10 +158,12 @@ TEST_F(Program, NamesASpacingThatFitsTheMemory) {
   double needed = 0, free = 0, spacing = 0;
   const std::size_t at = ended.error.find("the run needs");
   ASSERT_NE(at, std::string::npos) << ended.error;
-  ASSERT_EQ(std::sscanf(ended.error.c_str() + at,
-                        "the run needs %lf GB of memory and %lf GB are free; a spacing of about %lf m would fit",
-                        &needed, &free, &spacing),
-            3)
+  ASSERT_EQ(
+      std::sscanf(
+          ended.error.c_str() + at,
+          "the run needs %lf GB of memory and %lf GB are free on this machine; a spacing of about %lf m would fit",
+          &needed, &free, &spacing),
+      3)
       << ended.error;
   // 8 mm / 0.25 um = 32000 cells a side, about 154 bytes each.
   EXPECT_NEAR(needed * 1e9 / 32000 / 32000 / 32000, 154, 8);

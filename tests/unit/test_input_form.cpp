@@ -285,7 +285,7 @@ TEST(BrokenInput, Words) {
       {R"(cell = "cube-III")", R"(cell = "Cube-III")",
        R"(3:8: error: unknown cell "Cube-III"; did you mean "cube-III"? allowed: "cube-I", "cube-II", "cube-III")"},
       {R"(type = "quasi-static")", R"(type = "quasistatic")",
-       R"(30:8: error: unknown type "quasistatic"; did you mean "quasi-static"? allowed: "static", "quasi-static", "dynamic")"},
+       R"(30:8: error: unknown type "quasistatic"; did you mean "quasi-static"? allowed: "static", "quasi-static", "dynamic", "modes")"},
       {R"(shape = "sphere")", R"(shape = "torus")",
        R"(13:9: error: unknown shape "torus"; allowed: "box", "sphere", "cylinder", "half-space", "stl")"},
       {R"(face = "x-max")", R"(face = "x-top")",
@@ -352,7 +352,7 @@ distribution = "nodes")",
       {R"(type = "quasi-static")", R"(type = "dynamic"
 tolerance = 1e-6
 duration = 1)",
-       R"(31:1: error: "tolerance" has no meaning here; it goes with type "static" or "quasi-static")"},
+       R"(31:1: error: "tolerance" has no meaning here; it goes with type "static", "quasi-static" or "modes")"},
       {"factor = 0.8", R"(rate = "1 1/s")", R"(31:29: error: "rate" has no meaning here; it goes with kind "viscous")"},
       {R"(kind = "local")", R"(kind = "none")",
        R"(31:28: error: "factor" has no meaning here; it goes with kind "local")"},

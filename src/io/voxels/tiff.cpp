@@ -28,6 +28,31 @@ Tiff open(const std::filesystem::path& path) {
   return tiff;
 }
 
+// Pages of the file by its chain of directories: libtiff takes a chain that leaves the file for one that ends.
+std::int64_t count_pages(const InputFile& file) {
+  const bool little = file.text(0, 1) == "I";
+  const auto number = [&](std::uint64_t offset, std::size_t width) {
+    std::string bytes = file.text(offset, offset + width);
+    if (bytes.size() != width) throw InputError("is cut short: its list of pages leaves the file");
+    if (little) std::reverse(bytes.begin(), bytes.end());
+    std::uint64_t value = 0;
+    for (const char byte : bytes) value = value << 8 | static_cast<unsigned char>(byte);
+    return value;
+  };
+  // Version 43 has 64 bits where 42 has 32: offset of the first directory, number of entries, size of one, next offset.
+  const bool big = number(2, 2) == 43;
+  const std::size_t width = big ? 8 : 4;
+  std::int64_t pages = 0;
+  for (std::uint64_t at = number(width, width); at != 0; ++pages) {
+    // A chain may also bite its tail.
+    if (pages == 65535) throw InputError("has more than 65535 pages");
+    const std::uint64_t entries = number(at, big ? 8 : 2);
+    if (entries > 65535) throw InputError("has a page that cannot be read");
+    at = number(at + (big ? 8 + 20 * entries : 2 + 12 * entries), width);
+  }
+  return pages;
+}
+
 ValueType type_of(TIFF* tiff) {
   std::uint16_t bits = 1, format = SAMPLEFORMAT_UINT, samples = 1;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
@@ -84,6 +109,8 @@ void append_page(TIFF* tiff, const VoxelHeader& page, std::vector<std::byte>& by
 void append_pages(const std::filesystem::path& path, VoxelImage& image) {
   const InputFile file(path);  // refuses what is no regular file
   const Tiff tiff = open(path);
+  const std::int64_t pages = count_pages(file);
+  std::int64_t read = 0;
   do {
     const VoxelHeader page = page_header(tiff.get(), file.size());
     if (image.size[2] == 0) {
@@ -98,9 +125,10 @@ void append_pages(const std::filesystem::path& path, VoxelImage& image) {
     }
     // A page may be a lie that repeats one strip; memory is bounded by the number of pages.
     if (image.size[2] > 65535) throw InputError("has more than 65535 pages");
+    ++read;
     append_page(tiff.get(), page, image.bytes);
   } while (TIFFReadDirectory(tiff.get()) == 1);
-  if (TIFFLastDirectory(tiff.get()) == 0) throw InputError("has a page that cannot be read");
+  if (read != pages) throw InputError("has a page that cannot be read");
 }
 
 // Files whose names differ from the pattern's only by a number in place of "*", by their numbers.
