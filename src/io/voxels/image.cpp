@@ -54,8 +54,10 @@ std::uint64_t bytes_of(const VoxelHeader& header) {
 }
 
 VoxelImage read_values(const VoxelHeader& header, ByteSource& source) {
-  VoxelImage image{header.size, {1, header.size[0], header.size[0] * header.size[1]}, header.type, {}, header.voxel};
+  VoxelImage image{header.size, {}, header.type, {}, header.voxel};
   image.bytes = source.read_rest(bytes_of(header), words_of(header));
+  // Only now, when the values are there, is their number known to be one that an integer holds.
+  image.stride = {1, header.size[0], header.size[0] * header.size[1]};
   if (header.big_endian != (std::endian::native == std::endian::big)) swap_bytes(image.bytes, size_of(header.type));
   return image;
 }
