@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 
 namespace koshi {
@@ -48,6 +49,13 @@ std::string escaped(std::string_view text, bool keep_lines) {
     text.remove_prefix(bytes == 0 ? 1 : bytes);
   }
   return result;
+}
+
+std::string shown(std::string_view text) {
+  std::size_t end = 0;
+  for (int characters = 0; characters < 40 && end < text.size(); ++characters)
+    end += std::max<std::size_t>(first_of(text.substr(end)).bytes, 1);
+  return '"' + escaped(text.substr(0, end)) + (end < text.size() ? "...\"" : "\"");
 }
 
 }  // namespace koshi

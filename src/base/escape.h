@@ -11,4 +11,7 @@ namespace koshi {
 /// editor or a page shows. Line feeds stay where `keep_lines` says so.
 std::string escaped(std::string_view text, bool keep_lines = false);
 
+/// A text of a foreign file as it may stand in a message: escaped, in quotes, its first 40 characters.
+std::string shown(std::string_view text);
+
 }  // namespace koshi

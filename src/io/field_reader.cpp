@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/escape.h"
 #include "io/vti_file.h"
 #include "koshi/error.h"
 

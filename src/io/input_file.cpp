@@ -54,11 +54,4 @@ std::string InputFile::text(std::uint64_t begin, std::uint64_t end) const {
   return bytes;
 }
 
-std::string shown(std::string_view text) {
-  constexpr std::size_t most = 40;
-  std::string result = "\"";
-  for (const char c : text.substr(0, most)) result += c >= ' ' && c <= '~' ? c : '?';
-  return result + (text.size() > most ? "...\"" : "\"");
-}
-
 }  // namespace koshi::io

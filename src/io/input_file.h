@@ -35,8 +35,4 @@ class InputFile {
   std::uint64_t size_ = 0;
 };
 
-/// A text of a foreign file as it may stand in a message: in quotes, at most 40 characters, what cannot be printed as
-/// "?".
-std::string shown(std::string_view text);
-
 }  // namespace koshi::io

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <optional>
 
+#include "base/escape.h"
 #include "io/input_file.h"
 #include "io/voxels/header_text.h"
 #include "koshi/error.h"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/escape.h"
 #include "io/voxels/header_text.h"
 #include "io/vti_values.h"
 #include "koshi/error.h"

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cstring>
 
+#include "base/escape.h"
 #include "koshi/error.h"
 
 namespace koshi::io {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/escape.h"
 #include "io/voxels/formats.h"
 #include "io/voxels/header_text.h"
 #include "koshi/error.h"

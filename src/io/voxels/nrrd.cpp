@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "base/escape.h"
 #include "io/voxels/formats.h"
 #include "io/voxels/header_text.h"
 #include "koshi/error.h"

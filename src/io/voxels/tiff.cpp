@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 
+#include "base/escape.h"
 #include "io/voxels/formats.h"
 #include "io/voxels/header_text.h"
 #include "koshi/error.h"
