@@ -45,9 +45,10 @@ void set_environment(int ranks) {
   if (isatty(STDERR_FILENO)) setenv("KOSHI_PROGRESS", "live", 0);
 }
 
-// Becomes mpiexec: out of reach of the terminal's Ctrl-C, and ended when this program is.
-[[noreturn]] void become_launcher(std::vector<std::string>& command) {
+// Becomes mpiexec: out of reach of the terminal's Ctrl-C, ended when this program is, and printing into a pipe.
+[[noreturn]] void become_launcher(std::vector<std::string>& command, int printed) {
   setpgid(0, 0);
+  dup2(printed, STDOUT_FILENO);
   prctl(PR_SET_PDEATHSIG, SIGTERM);
   const int nothing = open("/dev/null", O_RDONLY);
   if (nothing >= 0) dup2(nothing, STDIN_FILENO);
@@ -59,6 +60,26 @@ void set_environment(int ranks) {
       "--ranks: error: cannot start mpiexec: {}; install an MPI launcher (Debian: openmpi-bin), or leave --ranks out\n",
       std::strerror(errno));
   std::_Exit(2);
+}
+
+// Copies what comes out of a pipe to the standard output, to the end of the pipe; 0, or the error number of the first
+// write that failed. mpiexec would lose the output without a word.
+int print_all(int pipe) {
+  std::signal(SIGPIPE, SIG_IGN);
+  int failure = 0;
+  char block[4096];
+  for (ssize_t length; (length = read(pipe, block, sizeof block)) != 0;) {
+    if (length < 0 && errno == EINTR) continue;
+    if (length < 0) return errno;
+    for (const char* at = block; length > 0 && failure == 0;) {
+      const ssize_t written = write(STDOUT_FILENO, at, static_cast<std::size_t>(length));
+      if (written < 0 && errno != EINTR) failure = errno;
+      if (written <= 0) continue;
+      at += written;
+      length -= written;
+    }
+  }
+  return failure;
 }
 
 }  // namespace
@@ -80,13 +101,17 @@ void launch(int ranks, const std::vector<std::string>& arguments) {
   if (length > 0) command.back().assign(self.data(), static_cast<std::size_t>(length));
   command.insert(command.end(), arguments.begin() + 1, arguments.end());
 
+  int printed[2];
+  if (pipe2(printed, O_CLOEXEC) != 0) throw RunError(fmt::format("cannot start mpiexec: {}", std::strerror(errno)));
   const pid_t child = fork();
   if (child < 0) throw RunError(fmt::format("cannot start mpiexec: {}", std::strerror(errno)));
-  if (child == 0) become_launcher(command);
+  if (child == 0) become_launcher(command, printed[1]);
+  close(printed[1]);
   launcher = child;
   // nohup lets SIGHUP be ignored, and so it stays.
   for (const int signal : {SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SIGHUP})
     if (std::signal(signal, pass_on) == SIG_IGN) std::signal(signal, SIG_IGN);
+  const int failure = print_all(printed[0]);
   int status = 0;
   while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
@@ -96,7 +121,8 @@ void launch(int ranks, const std::vector<std::string>& arguments) {
     std::cerr << (asked_to_stop ? std::string("error: ended by a signal before a checkpoint was written\n")
                                 : fmt::format("error: a process of the run was ended by signal {} ({})\n", code - 128,
                                               strsignal(code - 128)));
-  std::exit(code > 128 ? 1 : code);
+  if (failure != 0) std::cerr << "error: cannot write to the standard output: " << std::strerror(failure) << '\n';
+  std::exit(code > 128 || (code == 0 && failure != 0) ? 1 : code);
 }
 
 }  // namespace koshi::app

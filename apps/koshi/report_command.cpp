@@ -1,7 +1,10 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
+#include <new>
 
+#include "base/escape.h"
 #include "commands.h"
+#include "koshi/error.h"
 #include "report/report.h"
 
 namespace koshi::app {
@@ -11,8 +14,12 @@ void add_report_command(CLI::App& app) {
   const auto directory = std::make_shared<std::filesystem::path>();
   command->add_option("directory", *directory, "Output directory of a run")->required();
   command->callback([directory] {
-    report::write_report(*directory);
-    std::cout << "report in " << (*directory / "report.html").string() << '\n';
+    try {
+      report::write_report(*directory);
+    } catch (const std::bad_alloc&) {
+      throw RunError("out of memory while making the report of " + directory->string());
+    }
+    std::cout << "report in " << escaped((*directory / "report.html").string()) << '\n';
   });
 }
 

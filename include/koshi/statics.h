@@ -26,7 +26,7 @@ struct SolveReport {
   int levels = 0;                           ///< of the multigrid hierarchy
   bool converged = false;                   ///< to the tolerance
   bool stopped = false;                     ///< StaticOptions::stop asked for it
-  std::string reason;                       ///< PETSc's word for why it ended
+  std::string reason;                       ///< why it ended, in words
   std::vector<double> residual_history;     ///< relative residual after 0, 1, 2 ... iterations
   double setup_seconds = 0;                 ///< wall time before the iterations [s]
   double solve_seconds = 0;                 ///< wall time of the iterations [s]

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <new>
 #include <system_error>
 
 #include "io/input_file.h"
@@ -72,6 +73,8 @@ std::string read_file(const std::filesystem::path& path) {
     return file.text(0, file.size());
   } catch (const InputError& error) {
     throw InputError(fmt::format("{} {}", path.native(), error.message()));
+  } catch (const std::bad_alloc&) {
+    throw InputError(fmt::format("{} needs more memory than there is", path.native()));
   }
 }
 

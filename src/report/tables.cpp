@@ -99,15 +99,6 @@ std::string label_of_key(const std::string& key) {
   return words;
 }
 
-// PETSc's names for the ends a solve comes to, in words.
-std::string words_of_reason(const std::string& reason) {
-  static const std::map<std::string, std::string> words{{"CONVERGED_RTOL", "relative residual below tolerance"},
-                                                        {"CONVERGED_ATOL", "residual of rounding size"},
-                                                        {"CONVERGED_ITS", "number of iterations"}};
-  const auto known = words.find(reason);
-  return known == words.end() ? reason : known->second;
-}
-
 // The numbers, words and yes-or-no of one part of the summary; null when there are none.
 json part_table(const std::string& title, const json& part, const std::string& unit = {}) {
   json block = table({column("quantity"), column("value")});
@@ -123,7 +114,7 @@ json part_table(const std::string& title, const json& part, const std::string& u
       else if (value.is_boolean())
         block["rows"].push_back({label, value.get<bool>() ? "yes" : "no"});
       else if (value.is_string())
-        block["rows"].push_back({label, key == "reason" ? words_of_reason(value) : value.get<std::string>()});
+        block["rows"].push_back({label, value.get<std::string>()});
     }
   return block["rows"].empty() ? json() : block;
 }

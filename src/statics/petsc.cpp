@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <new>
 
 #include "koshi/error.h"
@@ -25,11 +26,15 @@ void check(PetscErrorCode code) {
           "the coarsest level could not be factored: some motion of the body costs no energy; `koshi check` says what "
           "the springs can hold");
     default:
-      throw RunError(fmt::format("the equations could not be solved: PETSc gave up with its error {}", code));
+      throw RunError(fmt::format(
+          "the equations could not be solved: PETSc gave up with its error {}; check the options after --, if any",
+          code));
   }
 }
 
 namespace {
+
+PetscErrorCode print_nothing(const char*, ...) { return 0; }
 
 // Options of a set that nothing has asked for, as on a command line.
 std::vector<std::string> left(PetscOptions options) {
@@ -47,6 +52,8 @@ std::vector<std::string> left(PetscOptions options) {
 PetscSession::PetscSession(const Communicator& communicator, const std::vector<std::string>& options) {
   PetscBool ready = PETSC_FALSE;
   PetscInitialized(&ready);
+  // What goes wrong is said by this program.
+  PetscErrorPrintf = print_nothing;
   if (ready == PETSC_FALSE) {
     // Only what this program asks for: no files, no signal handlers.
     std::vector<std::string> arguments{"koshi", "-skip_petscrc", "-no_signal_handler"};
@@ -57,7 +64,8 @@ PetscSession::PetscSession(const Communicator& communicator, const std::vector<s
     int count = static_cast<int>(arguments.size());
     char** values = pointers.data();
     PETSC_COMM_WORLD = MPI_Comm_f2c(communicator.handle());
-    check(PetscInitialize(&count, &values, nullptr, nullptr));
+    if (PetscInitialize(&count, &values, nullptr, nullptr) != 0)
+      throw RunError("PETSc cannot start with the options after --; check their names, values and files");
     owns_ = true;
     // What the start has taken, such as -log_view, is not asked for again.
     const std::vector<std::string> waiting = left(nullptr);
@@ -76,7 +84,8 @@ PetscSession::~PetscSession() {
   PetscOptionsPop();
   PetscOptionsDestroy(&options_);
   PetscPopErrorHandler();
-  if (owns_) PetscFinalize();
+  if (owns_ && PetscFinalize() != 0)
+    fmt::print(stderr, "warning: PETSc could not write what the options after -- ask for; check their files\n");
 }
 
 std::vector<std::string> PetscSession::unused_options() const {

@@ -4,11 +4,11 @@
 
 #include <algorithm>
 #include <exception>
-#include <limits>
 #include <memory>
 
 #include "base/out_of_memory.h"
 #include "base/progress.h"
+#include "statics/ending.h"
 #include "statics/equilibrium.h"
 #include "statics/exact_vectors.h"
 #include "statics/free_motions.h"
@@ -94,62 +94,6 @@ PetscErrorCode monitor(KSP, PetscInt iteration, PetscReal residual, void* data) 
   return context.stopped ? PETSC_ERR_USER : code;
 }
 
-// Contrast of stiffness up to which a stiff bar that hangs on a soft one reaches a residual of 1e-8.
-constexpr double most_contrast = 1e8;
-
-// The residuals of at most a dozen iterations, the last one among them.
-std::string history_text(const std::vector<double>& history) {
-  constexpr std::size_t shown = 12;
-  std::string text;
-  const std::size_t step = (history.size() + shown - 1) / shown;
-  for (std::size_t i = 0; i < history.size(); ++i)
-    if ((history.size() - 1 - i) % step == 0)
-      text += fmt::format("{}{}: {:.1e}", text.empty() ? "" : ", ", i, history[i]);
-  return text;
-}
-
-std::string in_words(KSPConvergedReason reason) {
-  switch (reason) {
-    case KSP_DIVERGED_ITS:
-      return "more of them are needed";
-    case KSP_DIVERGED_DTOL:
-      return "the residual grows";
-    case KSP_DIVERGED_NANORINF:
-      return "numbers overflowed";
-    case KSP_DIVERGED_INDEFINITE_MAT:
-    case KSP_DIVERGED_INDEFINITE_PC:
-      return "the stiffness is not positive";
-    default:
-      return "the iteration broke down";
-  }
-}
-
-// Young's modulus of the stiffest material over that of the softest.
-double contrast(const model::Model& model) {
-  double least = std::numeric_limits<double>::infinity(), most = 0;
-  for (std::size_t m = 1; m < model.materials.size(); ++m) {
-    least = std::min(least, model.materials[m].youngs_modulus);
-    most = std::max(most, model.materials[m].youngs_modulus);
-  }
-  return most / least;
-}
-
-std::string hint(KSPConvergedReason reason, const std::vector<double>& history, double contrast) {
-  const double least = history.empty() ? 1 : *std::min_element(history.begin(), history.end());
-  if (reason == KSP_DIVERGED_NANORINF) return "check loads and units";
-  // A stiff part moves by what the soft one gives; rounding of that motion is a force of its own stiffness.
-  if (contrast >= most_contrast)
-    return fmt::format(
-        "the stiffest material has {:.0e} times the stiffness of the softest, and where the soft one carries the load "
-        "rounding ends what can be reached at about {:.0e}; make the softest stiffer, or void",
-        contrast, most_contrast);
-  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC)
-    return "some motion of the body costs no energy or releases it; `koshi check` says what the springs can hold";
-  if (least < 1e-12) return "rounding ends what can be reached; take a tolerance of 1e-11 or more";
-  return "allow more iterations (-- -ksp_max_it 2000) or a larger analysis.tolerance; parts that hang together by "
-         "single nodes or by very soft material converge slowly";
-}
-
 /// Memory of the state that waits for its values until the end; all zero again when this is gone.
 class Borrowed {
  public:
@@ -228,13 +172,9 @@ SolveReport solve_static(const model::Model& model, model::State& state, const S
   report.relative_residual = report.residual_history.empty() ? 0 : report.residual_history.back();
   report.stopped = context.stopped;
   report.converged = reason > 0 && !report.stopped;
-  report.reason = report.stopped ? "STOPPED" : KSPConvergedReasons[reason];
+  report.reason = report.stopped ? "stopped" : end_in_words(reason);
   report.unused_options = session.unused_options();
-  if (!report.converged && !report.stopped)
-    throw RunError(fmt::format(
-        "no equilibrium found in {} iterations: {}; relative residual by iteration: {}; {}{}", report.iterations,
-        in_words(reason), history_text(report.residual_history), hint(reason, report.residual_history, contrast(model)),
-        report.unused_options.empty() ? "" : fmt::format("; not used: {}", fmt::join(report.unused_options, " "))));
+  if (!report.converged && !report.stopped) throw no_equilibrium(model, report, reason);
 
   const PetscScalar* solution = nullptr;
   check(VecGetArrayRead(x, &solution));

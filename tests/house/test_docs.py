@@ -106,6 +106,22 @@ def compare_keys(folder):
     assert listed == there, listed ^ there
 
 
+def compare_mode_keys(folder):
+    """The same for searches for modes: their section lists what they have besides title, body, springs and performance."""
+    run("koshi run exact.toml --out modes --quiet --set 'analysis={type=\"modes\",count=1}' --set 'load=[]' --set 'boundary=[]'", folder)
+    summary = json.loads((folder / "modes/summary.json").read_text(encoding="utf-8"))
+    page = (ROOT / "docs/formats/output.md").read_text(encoding="utf-8")
+    section = page[page.index("## summary.json of modes\n") :].split("\n## ")[0]
+    row = next(line for line in section.splitlines() if line.startswith("| `modes`"))
+    assert set(re.findall(r"`(\w+)`", row)) - {"modes"} == set(summary["modes"][0]), row
+    there = {key for key in keys(summary) if key.startswith(("analysis", "performance"))}
+    # The performance of all runs stands in the first table of summary.json.
+    every = page[page.index("## summary.json\n") :].split("\nStatic analyses")[0]
+    listed = set(re.findall(r"`(analysis[\w.]+|performance[\w.]+)`", section)) | set(re.findall(r"`(performance\.\w+)`", every))
+    assert listed == there, listed ^ there
+    assert set(summary) == {"title", "version", "body", "springs", "performance", "analysis", "modes"}, set(summary)
+
+
 def test_pages():
     counts = {"files": 0, "commands": 0, "numbers": 0}
     tutorial = [ROOT / "docs/tutorial" / f"{name}.md" for name in ("cantilever", "exact-springs", "block", "python")]
@@ -116,6 +132,7 @@ def test_pages():
                 read_page(page, Path(folder), counts)
             if pages is tutorial:
                 compare_keys(Path(folder))
+                compare_mode_keys(Path(folder))
     print(counts)
     assert counts["files"] >= 7 and counts["commands"] >= 15 and counts["numbers"] >= 60, counts
 

@@ -2,10 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <nlohmann/json.hpp>
-
-#include "support/program.h"
-#include "support/temporary_directory.h"
+#include "support/program_test.h"
 
 namespace koshi {
 namespace {
@@ -50,15 +47,9 @@ std::string replaced(std::string text, const std::string& right, const std::stri
   return text.replace(at, right.size(), wrong);
 }
 
-class Program : public testing::Test {
+class Program : public test::ProgramTest {
  protected:
   Program() { test::write_file(directory_ / "case.toml", small_case); }
-  Ended koshi(const std::string& arguments) const { return test::koshi(directory_.path(), arguments); }
-  Json summary(const fs::path& output) const {
-    return Json::parse(test::read_file(directory_ / output / "summary.json"));
-  }
-
-  test::TemporaryDirectory directory_;
 };
 
 struct Wrong {

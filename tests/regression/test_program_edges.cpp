@@ -5,11 +5,9 @@
 #include <signal.h>
 #include <unistd.h>
 
-#include <nlohmann/json.hpp>
 #include <thread>
 
-#include "support/program.h"
-#include "support/temporary_directory.h"
+#include "support/program_test.h"
 
 namespace koshi {
 namespace {
@@ -54,20 +52,15 @@ every = "0.1 ms"
 checkpoint_every = "0.1 ms"
 )";
 
-class Edges : public testing::Test {
+class Edges : public test::ProgramTest {
  protected:
   Edges() {
     test::write_file(directory_ / "static.toml", cantilever);
     test::write_file(directory_ / "motion.toml", cantilever + motion);
   }
-  Ended koshi(const std::string& arguments) const { return test::koshi(directory_.path(), arguments); }
   Ended shell(const std::string& before, const std::string& arguments) const {
     return test::koshi(directory_.path(), arguments, "env' " + before + " '" + KOSHI_PROGRAM);
   }
-  Json summary(const fs::path& output) const {
-    return Json::parse(test::read_file(directory_ / output / "summary.json"));
-  }
-  test::TemporaryDirectory directory_;
 };
 
 // Timoshenko: P L^3 / (3 E I) + P L / (k G A) = 1.067e-5 + 0.188e-5 m; the warping held at the root, over half a
@@ -133,14 +126,49 @@ TEST_F(Edges, FullOutputIsAFailure) {
   ASSERT_EQ(koshi("run static.toml --out out --quiet").code, 0);
   int checked = 0;
   for (const std::string command : {"--help", "--version", "schema", "check static.toml", "run static.toml --out new",
-                                    "report out", "calibrate --spacing 1 --youngs-modulus 1 --poissons-ratio 0.2"}) {
+                                    "run static.toml --out several --ranks 2", "report out",
+                                    "calibrate --spacing 1 --youngs-modulus 1 --poissons-ratio 0.2"}) {
     // The comment hides where the output of other tests goes.
     const Ended ended = koshi(command + " 2>'" + (directory_ / "stderr.txt").native() + "' >/dev/full #");
     EXPECT_EQ(ended.code, 1) << command;
     EXPECT_THAT(ended.error, HasSubstr("error: cannot write to the standard output: ")) << command;
     ++checked;
   }
-  EXPECT_EQ(checked, 7);
+  EXPECT_EQ(checked, 8);
+}
+
+// Files larger than memory: results that cannot be read are named, the rest by what was being made.
+TEST_F(Edges, FilesBeyondMemoryAreNamed) {
+  if (!test::address_space_is_free) GTEST_SKIP() << "under the address sanitizer";
+  ASSERT_EQ(koshi("run static.toml --out out --quiet").code, 0);
+  int checked = 0;
+  for (const std::string file : {"summary.json", "history.csv", "resolved.toml"}) {
+    const fs::path results = directory_ / ("large_" + file);
+    fs::copy(directory_ / "out", results, fs::copy_options::recursive);
+    fs::resize_file(results / file, 3000000000);  // a hole, no disk
+    const Ended ended = test::koshi_in_small_memory(directory_.path(), "report '" + results.native() + "'");
+    EXPECT_EQ(ended.code, 2) << ended.error;
+    EXPECT_THAT(ended.error, HasSubstr((results / file).native())) << file;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 3);
+}
+
+// What goes wrong in a library is said in this program's words.
+TEST_F(Edges, WrongOptionsOfPetscAreOneLine) {
+  int checked = 0;
+  for (const std::string options :
+       {"lattice.spacing=2", "-options_file nowhere", "-ksp_type nosuch", "-ksp_rtol abc", "-pc_type lu"}) {
+    const Ended ended = koshi("run static.toml --quiet --out petsc -- " + options);
+    EXPECT_EQ(ended.code, 1) << options;
+    EXPECT_THAT(ended.error, testing::MatchesRegex("error: [^\n]*options after --[^\n]*\n")) << options;
+    ++checked;
+  }
+  EXPECT_EQ(checked, 5);
+  // What PETSc writes at the end comes after the results.
+  const Ended late = koshi("run static.toml --quiet --out petsc -- -log_view :/nowhere/at/all");
+  EXPECT_EQ(late.code, 0);
+  EXPECT_EQ(late.error, "warning: PETSc could not write what the options after -- ask for; check their files\n");
 }
 
 TEST_F(Edges, EmptyEnvironmentIsEnoughForOneProcess) {

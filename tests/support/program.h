@@ -27,6 +27,13 @@ inline std::string read_file(const std::filesystem::path& file) {
 
 inline void write_file(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
 
+/// Whether the program can run within a limit of its address space: the address sanitizer reserves terabytes of it.
+#ifdef __SANITIZE_ADDRESS__
+inline constexpr bool address_space_is_free = false;
+#else
+inline constexpr bool address_space_is_free = true;
+#endif
+
 /// Runs `koshi ARGUMENTS` through the shell in a directory.
 inline Ended koshi(const std::filesystem::path& directory, const std::string& arguments,
                    const std::string& program = KOSHI_PROGRAM) {
@@ -36,6 +43,11 @@ inline Ended koshi(const std::filesystem::path& directory, const std::string& ar
   const int status = std::system(command.c_str());
   EXPECT_TRUE(WIFEXITED(status)) << command;
   return {WEXITSTATUS(status), read_file(out), read_file(err)};
+}
+
+/// The same within 1.5 GB of address space.
+inline Ended koshi_in_small_memory(const std::filesystem::path& directory, const std::string& arguments) {
+  return koshi(directory, "--version >/dev/null; ulimit -v 1500000; '" + std::string(KOSHI_PROGRAM) + "' " + arguments);
 }
 
 }  // namespace koshi::test

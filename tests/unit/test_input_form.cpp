@@ -49,8 +49,20 @@ face.a = 1)",
       {R"(every = "1 s")", R"(every = "1 s)",
        "36:13: error: cannot read string: unescaped control characters other than TAB (U+0009) are explicitly "
        "prohibited; a text ends with a quote on its own line"},
+      {R"(spacing = "0.2 cm")", "spacing = \u201C0.2 cm\u201D",
+       R"(4:11: error: cannot read value: could not determine value type; quotes are straight, as in "0.2 cm", not those of a word processor)"},
+      {R"(title = "base")", R"(title = "base" // of all)",
+       "1:16: error: cannot read key-value pair: expected a comment or whitespace, saw '/'; a comment begins with #"},
+      {R"(title = "base")", "title = True",
+       "1:9: error: cannot read boolean: expected 'true', saw 'T'; it is written true or false, in small letters"},
+      {R"(title = "base")",
+       "title = \"Gr\xFC\xDF"
+       "e\"",
+       "1:11: error: cannot read the file: Encountered invalid utf-8 sequence; save it as UTF-8"},
+      {R"(spacing = "0.2 cm")", R"(spacing: "0.2 cm")",
+       "4:8: error: cannot read key-value pair: expected '=', saw ':'"},
   };
-  ASSERT_EQ(inputs.size(), 13u);
+  ASSERT_EQ(inputs.size(), 18u);
   expect_messages(inputs);
 }
 

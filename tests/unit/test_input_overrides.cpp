@@ -153,7 +153,7 @@ TEST(ReadCase, FilesThatCannotBeRead) {
   };
   EXPECT_EQ(message_of_file("/nowhere/case.toml"),
             "/nowhere/case.toml: error: cannot be opened (No such file or directory); expected a case file in TOML");
-  EXPECT_EQ(message_of_file("/"), "/: error: cannot be read; expected a case file in TOML");
+  EXPECT_EQ(message_of_file("/"), "/: error: is a folder; expected a case file in TOML");
   EXPECT_EQ(message_of_file("/dev/zero"), "/dev/zero: error: is larger than 16 MiB; expected a case file in TOML");
 }
 

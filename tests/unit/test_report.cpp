@@ -134,7 +134,7 @@ class Results : public testing::Test {
     summary = json::parse(R"({"probes": {"tip": {"displacement": [0.01, 0.001, 0]}, "press": {"reaction": [1e5, 0, 3]}},
                               "body": {"solid_cells": 24, "nodes": 60}, "springs": {"hard": {"edge": {"kn": 1, "kt": 2}, "face": {"kn": 3, "kt": 4},
                               "body": {"kn": 5, "kt": 6}, "kappa": 7}},
-                              "analysis": {"steps": 321, "converged": true, "reason": "CONVERGED_RTOL", "residual_history": [1, 0.1, 1e-9]},
+                              "analysis": {"steps": 321, "converged": true, "reason": "relative residual below the tolerance", "residual_history": [1, 0.1, 1e-9]},
                               "energy": {"elastic": 2.5}, "performance": {"seconds": 0.5, "peak_memory": 34500000}, "version": "0.1.0"})");
     io::write_summary(world, directory.path(), summary);
   }
@@ -181,7 +181,7 @@ TEST_F(Results, HeadAndTables) {
   ASSERT_EQ(timing.size(), 3U);
   EXPECT_EQ(timing[0].at("title"), "Analysis");
   EXPECT_EQ(timing[0].at("rows"), json::parse(R"([["steps", {"value": 321, "unit": "1"}], ["converged", "yes"],
-      ["ended by", "relative residual below tolerance"]])"));
+      ["ended by", "relative residual below the tolerance"]])"));
   EXPECT_EQ(timing[1].at("rows"), json::parse(R"([["elastic", {"value": 2.5, "unit": "J"}]])"));
   EXPECT_EQ(timing[2].at("rows"), json::parse(R"([["wall time", {"value": 0.5, "unit": "s"}],
       ["peak memory", {"value": 34500000, "unit": "B"}]])"));

@@ -53,8 +53,8 @@ std::string contents(const std::filesystem::path& file) {
   constexpr std::streamsize largest = 16 << 20;
   std::string text(static_cast<std::size_t>(largest), '\0');
   stream.read(text.data(), largest);
-  if (stream.bad() || std::filesystem::is_directory(file))
-    throw InputError(place, "cannot be read; expected a case file in TOML");
+  if (std::filesystem::is_directory(file)) throw InputError(place, "is a folder; expected a case file in TOML");
+  if (stream.bad()) throw InputError(place, "cannot be read; expected a case file in TOML");
   if (stream.gcount() == largest) throw InputError(place, "is larger than 16 MiB; expected a case file in TOML");
   text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;

@@ -65,17 +65,34 @@ void refuse_deep_keys(std::string_view text, const std::string& file_name) {
   }
 }
 
+// The text's line of this number, from 1.
+std::string_view line_of(std::string_view text, int number) {
+  while (--number > 0 && text.find('\n') != std::string_view::npos) text.remove_prefix(text.find('\n') + 1);
+  return text.substr(0, text.find('\n'));
+}
+
 // The parser's words, with what would be right where they do not say it.
-std::string syntax_message(std::string_view description) {
+std::string syntax_message(std::string_view description, std::string_view line) {
   constexpr std::string_view prefix = "Error while parsing ";
   const bool usual = description.starts_with(prefix);
   if (usual) description.remove_prefix(prefix.size());
   const auto mentions = [&](std::string_view words) { return description.find(words) != std::string_view::npos; };
+  const auto holds = [&](std::string_view mark) { return line.find(mark) != std::string_view::npos; };
   std::string hint;
-  if (mentions("determine value type") || mentions("comment or whitespace"))
+  if (mentions("utf-8"))
+    hint = "; save it as UTF-8";
+  else if (holds("\u201C") || holds("\u201D") || holds("\u2018") || holds("\u2019"))
+    hint = "; quotes are straight, as in \"0.2 cm\", not those of a word processor";
+  else if (mentions("comment or whitespace, saw '/'"))
+    hint = "; a comment begins with #";
+  else if (mentions("determine value type") || mentions("comment or whitespace"))
     hint = "; text and quantities with a unit need quotes, such as \"0.2 cm\"";
-  if (mentions("unescaped control characters")) hint = "; a text ends with a quote on its own line";
-  if (mentions("cannot redefine")) hint = "; every key and table may stand once";
+  else if (mentions("boolean"))
+    hint = "; it is written true or false, in small letters";
+  else if (mentions("unescaped control characters"))
+    hint = "; a text ends with a quote on its own line";
+  else if (mentions("cannot redefine"))
+    hint = "; every key and table may stand once";
   return fmt::format("cannot read {}{}{}", usual ? "" : "the file: ", description, hint);
 }
 
@@ -114,7 +131,8 @@ Value parse_toml(std::string_view text, const std::string& file_name) {
   try {
     return value_of(toml::parse(text, std::string_view(file_name)), file_name);
   } catch (const toml::parse_error& error) {
-    throw InputError(place_of(error.source(), file_name), syntax_message(error.description()));
+    const Place place = place_of(error.source(), file_name);
+    throw InputError(place, syntax_message(error.description(), line_of(text, place.line)));
   }
 }
 
