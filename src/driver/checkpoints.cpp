@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 #include <csignal>
 
 #include "base/progress.h"
@@ -80,7 +81,11 @@ void Checkpoints::restore(const std::filesystem::path& file, model::State& state
   state.step = info.step;
   // The step of the run so far, so that another duration changes nothing but the end.
   const auto step = info.scalars.find(time_step_name);
-  if (step != info.scalars.end()) state.time_step = step->second;
+  if (step != info.scalars.end()) {
+    if (!(step->second > 0) || std::isinf(step->second))
+      throw InputError(fmt::format("checkpoint {} has a time step of {} s", file.native(), step->second));
+    state.time_step = step->second;
+  }
   last_ = file;
 }
 

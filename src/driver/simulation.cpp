@@ -190,6 +190,7 @@ Outcome Simulation::run_explicit(const Observer& observer) {
   Outcome outcome;
   outcome.stable = stable_;
   const bool goes_on = state_->step > 0 && state_->time_step > 0;
+  if (goes_on) check_step_count(model_->definition, state_->time_step);
   const Schedule schedule(model_->definition, goes_on ? state_->time_step : choose_step(*outcome.stable), goes_on);
   outcome.time_step = state_->time_step = schedule.dt();
 

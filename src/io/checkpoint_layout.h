@@ -1,4 +1,4 @@
-// What lies where in a checkpoint; the writer and the reader go by this alone.
+// The objects of a checkpoint's HDF5 part, for its writer.
 #pragma once
 
 #include <hdf5.h>
@@ -16,11 +16,10 @@ inline constexpr const char* step_name = "step";
 inline constexpr const char* version_name = "koshi_version";
 inline constexpr const char* case_name = "case";
 inline constexpr const char* blob_name = "blob";
+inline constexpr const char* index_name = "index";
 // Groups: scalars as attributes of the one, fields as datasets (components, nz, ny, nx) of the other.
 inline constexpr const char* scalars_name = "scalars";
 inline constexpr const char* fields_name = "fields";
-inline constexpr const char* displacement_name = "displacement";
-inline constexpr const char* velocity_name = "velocity";
 
 /// Shape of a field's dataset.
 inline std::array<hsize_t, 4> field_shape(int components, const Int3& nodes) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 
@@ -20,8 +21,9 @@ namespace fs = std::filesystem;
 constexpr std::string_view title = "Koshi checkpoint\nformat ";
 
 // The part of the seal that the checksum covers, together with everything behind the seal.
-std::string make_head(const std::string& version, std::int64_t bytes) {
-  return fmt::format("{}{}\nkoshi {}\nbytes {}\n", title, checkpoint_format, version, bytes);
+std::string make_head(const Seal& seal) {
+  return fmt::format("{}{}\nkoshi {}\nbytes {}\nindex {} {}\n", title, checkpoint_format, seal.koshi_version,
+                     seal.file_size, seal.index.offset, seal.index.count);
 }
 
 std::string make_seal(const std::string& head, std::uint32_t crc) {
@@ -35,13 +37,12 @@ uLong crc_of(std::string_view bytes, uLong crc = 0) {
 }
 
 // CRC-32 of the head and of everything behind the seal, on the root: each rank reads its part of the file.
-std::uint32_t checksum(const fs::path& file, const std::string& head, std::int64_t bytes,
-                       const Communicator& communicator) {
+std::uint32_t checksum(const fs::path& file, const Seal& seal, const Communicator& communicator) {
   struct Part {
     std::uint64_t crc;
     std::int64_t length;
   };
-  const std::int64_t body = bytes - static_cast<std::int64_t>(seal_size);
+  const std::int64_t body = static_cast<std::int64_t>(seal.file_size) - static_cast<std::int64_t>(seal_size);
   const std::int64_t ranks = communicator.size(), rank = communicator.rank();
   const std::int64_t begin = body * rank / ranks, end = body * (rank + 1) / ranks;
   Part part{0, end - begin};
@@ -59,7 +60,7 @@ std::uint32_t checksum(const fs::path& file, const std::string& head, std::int64
 
   // The parts' checksums are joined in rank order.
   const std::string parts = communicator.gather(std::string(reinterpret_cast<const char*>(&part), sizeof part));
-  uLong crc = crc_of(head);
+  uLong crc = crc_of(make_head(seal));
   for (std::size_t at = 0; at < parts.size(); at += sizeof part) {
     std::memcpy(&part, parts.data() + at, sizeof part);
     crc = crc32_combine(crc, static_cast<uLong>(part.crc), part.length);
@@ -75,27 +76,33 @@ std::string entry(const std::string& seal, const std::string& key) {
   return seal.substr(begin, seal.find('\n', begin) - begin);
 }
 
-// The seal of a file that seems to be a checkpoint of this format and size.
-std::string read_seal(const fs::path& file, std::int64_t& bytes) {
-  std::string seal;
+// What stands in front of a file that seems to be a checkpoint of this format and size, and what it says.
+std::string read_seal(const fs::path& file, Seal& seal) {
+  std::string text;
   try {
     const InputFile opened(file);
-    seal = opened.text(0, seal_size);
-    bytes = static_cast<std::int64_t>(opened.size());
+    text = opened.text(0, seal_size);
+    seal.file_size = opened.size();
   } catch (const InputError& error) {
     throw InputError(fmt::format("checkpoint {} {}", file.native(), error.message()));
   }
   const std::string name = file.native();
-  if (seal.starts_with("\x89HDF\r\n\x1a\n"))
+  if (text.starts_with("\x89HDF\r\n\x1a\n"))
     throw InputError(fmt::format("{} is an HDF5 file, but no checkpoint of Koshi", name));
-  if (!seal.starts_with(title)) throw InputError(fmt::format("{} is no checkpoint of Koshi", name));
-  const std::string format = entry(seal, "format");
+  if (!text.starts_with(title)) throw InputError(fmt::format("{} is no checkpoint of Koshi", name));
+  seal.koshi_version = entry(text, "koshi");
+  const std::string format = entry(text, "format");
   if (format != std::to_string(checkpoint_format))
     throw InputError(fmt::format("{} has checkpoint format {}, this Koshi reads format {}; go on with Koshi {}", name,
-                                 format, checkpoint_format, entry(seal, "koshi")));
-  if (const std::string wanted = entry(seal, "bytes"); wanted != std::to_string(bytes))
-    throw InputError(fmt::format("checkpoint {} is cut short: {} of {} bytes", name, bytes, wanted));
-  return seal;
+                                 format, checkpoint_format, seal.koshi_version));
+  if (const std::string wanted = entry(text, "bytes"); wanted != std::to_string(seal.file_size))
+    throw InputError(fmt::format("checkpoint {} is cut short: {} of {} bytes", name, seal.file_size, wanted));
+  // What is no number becomes one that the checksum does not fit.
+  const std::string index = entry(text, "index");
+  const char* end = index.data() + index.size();
+  const auto [offset_end, error] = std::from_chars(index.data(), end, seal.index.offset);
+  if (error == std::errc() && offset_end != end) std::from_chars(offset_end + 1, end, seal.index.count);
+  return text;
 }
 
 // What a user may try instead of a broken checkpoint.
@@ -106,31 +113,34 @@ std::string remedy(const fs::path& file) {
 
 }  // namespace
 
-void seal_checkpoint(const fs::path& file, const Communicator& communicator) {
-  const auto bytes = static_cast<std::int64_t>(fs::file_size(file));
-  const std::string head = make_head(KOSHI_VERSION, bytes);
-  const std::uint32_t crc = checksum(file, head, bytes, communicator);
+void seal_checkpoint(const fs::path& file, const Bytes& index, const Communicator& communicator) {
+  const Seal seal{KOSHI_VERSION, fs::file_size(file), index};
+  const std::uint32_t crc = checksum(file, seal, communicator);
   collectively(communicator, [&] {
     if (!communicator.is_root()) return;
     std::fstream out(file, std::ios::binary | std::ios::in | std::ios::out);
-    if (!out.write(make_seal(head, crc).data(), seal_size).flush())
+    if (!out.write(make_seal(make_head(seal), crc).data(), seal_size).flush())
       throw RunError(fmt::format("cannot write {}: {}", file.native(), system_reason(errno)));
     flush_to_disk(file);
   });
 }
 
-void check_seal(const fs::path& file, const Communicator& communicator) {
+Seal check_seal(const fs::path& file, const Communicator& communicator) {
   try {
-    std::string seal;
-    std::int64_t bytes = 0;
-    collectively(communicator, [&] { seal = read_seal(file, bytes); });
-    const std::string head = make_head(entry(seal, "koshi"), bytes);
-    const std::uint32_t crc = checksum(file, head, bytes, communicator);
+    std::string text;
+    Seal seal;
+    collectively(communicator, [&] { text = read_seal(file, seal); });
+    const std::uint32_t crc = checksum(file, seal, communicator);
     collectively(communicator, [&] {
-      if (communicator.is_root() && seal != make_seal(head, crc))
+      if (communicator.is_root() && text != make_seal(make_head(seal), crc))
         throw InputError(fmt::format("checkpoint {} is corrupted: its checksum is {:08x}, not {}", file.native(), crc,
-                                     entry(seal, "crc32")));
+                                     entry(text, "crc32")));
+      // Right, but made by hand: an index may lie behind the end of the file.
+      const Bytes& index = seal.index;
+      if (index.offset < seal_size || index.offset > seal.file_size || index.count > seal.file_size - index.offset)
+        throw InputError(fmt::format("checkpoint {} has its index behind its end", file.native()));
     });
+    return seal;
   } catch (const InputError& error) {
     throw InputError(error.message() + remedy(file));
   }

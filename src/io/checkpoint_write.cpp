@@ -3,12 +3,14 @@
 #include <mpi.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <vector>
 
 #include "base/collective.h"
 #include "io/checkpoint.h"
+#include "io/checkpoint_index.h"
 #include "io/checkpoint_layout.h"
 #include "io/checkpoint_seal.h"
 #include "io/files.h"
@@ -29,7 +31,7 @@ struct NamedValues {
 std::int64_t expected_bytes(const model::Model& model, const CheckpointInfo& info,
                             std::span<const NamedValues> fields) {
   std::int64_t bytes = (1 << 16) + static_cast<std::int64_t>(info.case_text.size() + info.blob.size());
-  bytes += 1024 * static_cast<std::int64_t>(info.scalars.size() + fields.size());
+  bytes += 2048 * static_cast<std::int64_t>(info.scalars.size() + fields.size());
   for (const NamedValues& field : fields) bytes += 8 * field.values->components() * model.lattice.grid.node_count();
   return bytes;
 }
@@ -60,20 +62,25 @@ class Writer {
   Writer(const fs::path& path, const Communicator& communicator)
       : root_(communicator.is_root()), file_(create(path, communicator)) {}
 
-  void write_string(const char* name, const std::string& text) {
+  // Where the text is.
+  Bytes write_string(const char* name, const std::string& text) {
     const Handle type(H5Tcopy(H5T_C_S1), H5Tclose, "describe text");
     check(H5Tset_size(type, text.size() + 1), "describe text");
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose, "describe text");
     const Handle dataset = make_dataset(file_, name, type, space);
     if (root_) remember(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()));
+    return {offset_of(dataset), text.size()};
   }
 
   void write_head(const model::State& state, const CheckpointInfo& info) {
     write_attribute(file_, time_name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &state.time);
     write_attribute(file_, step_name, H5T_STD_I64LE, H5T_NATIVE_INT64, &state.step);
     write_string(version_name, KOSHI_VERSION);
-    write_string(case_name, info.case_text);
-    write_string(blob_name, info.blob);
+    index_.time = state.time;
+    index_.step = state.step;
+    index_.scalars = info.scalars;
+    index_.case_text = write_string(case_name, info.case_text);
+    index_.blob = write_string(blob_name, info.blob);
     const Handle group = make_group(scalars_name);
     for (const auto& [name, value] : info.scalars)
       write_attribute(group, name, H5T_IEEE_F64LE, H5T_NATIVE_DOUBLE, &value);
@@ -88,12 +95,18 @@ class Writer {
       const auto shape = field_shape(field.values->components(), grid.nodes());
       const Handle space(H5Screate_simple(4, shape.data(), nullptr), H5Sclose, "describe " + field.name);
       const Handle dataset = make_dataset(group, field.name, H5T_IEEE_F64LE, space);
+      IndexedField& indexed = index_.fields[field.name];
+      indexed.offset = offset_of(dataset);
+      std::copy(shape.begin(), shape.end(), indexed.shape.begin());
       for (int c = 0; c < field.values->components(); ++c) {
         select_owned(space, layout, c);
         remember(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, memory, space, transfer, field.values->component(c)));
       }
     }
   }
+
+  // Where everything is; the last thing to be written. Returns where that is.
+  Bytes write_index() { return write_string(index_name, text_of(index_)); }
 
   // Throws if anything failed on any rank.
   void close(const Communicator& communicator, const fs::path& path) {
@@ -119,19 +132,27 @@ class Writer {
     return Handle(H5Gcreate2(file_, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose,
                   std::string("create ") + name);
   }
-  // Contiguous, without fill values and times: equal states give equal files.
+  // Contiguous and placed at once, without fill values and times: equal states give equal files.
   static Handle make_dataset(hid_t where, const std::string& name, hid_t type, hid_t space) {
     const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, "describe " + name);
     check(H5Pset_fill_time(creation, H5D_FILL_TIME_NEVER), "describe " + name);
+    check(H5Pset_alloc_time(creation, H5D_ALLOC_TIME_EARLY), "describe " + name);
     check(H5Pset_obj_track_times(creation, false), "describe " + name);
     return Handle(H5Dcreate2(where, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose,
                   "create " + name);
+  }
+  // From the file's first byte, the seal's.
+  static std::uint64_t offset_of(hid_t dataset) {
+    const haddr_t offset = H5Dget_offset(dataset);
+    if (offset == HADDR_UNDEF) throw hdf5::Error("cannot place a dataset");
+    return offset;
   }
   void remember(herr_t result) { good_ = good_ && result >= 0; }
 
   bool root_;
   bool good_ = true;
   Handle file_;
+  CheckpointIndex index_;
 };
 
 // Gives the file its name and keeps its predecessor; checkpoint.h5 is there at every moment.
@@ -175,8 +196,9 @@ void write_checkpoint(const fs::path& directory, const model::Model& model, cons
     reserve_space();
     writer.write_head(state, info);
     writer.write_fields(model.lattice.grid, model.layout(), all);
+    const Bytes index = writer.write_index();
     writer.close(communicator, part);
-    seal_checkpoint(part, communicator);
+    seal_checkpoint(part, index, communicator);
     collectively(communicator, [&] {
       if (communicator.is_root()) rotate(directory);
     });

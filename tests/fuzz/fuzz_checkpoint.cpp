@@ -1,6 +1,7 @@
 // The checkpoint reader against arbitrary files. An input that begins with "patch" is a list of changes (two bytes
-// offset, one byte value) to a whole checkpoint; any other is a file of its own. A file is read or refused with an
-// InputError; a whole checkpoint that was changed behind its seal is always refused.
+// offset, one byte value) to a whole checkpoint; one that begins with "index" is an index for it, with a right seal;
+// any other is a file of its own. A file is read or refused with an InputError; a whole checkpoint that was changed
+// behind its seal is always refused.
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -53,7 +54,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         patched != fixture.whole && patched.substr(0, io::seal_size) == fixture.whole.substr(0, io::seal_size);
     bytes = patched;
   }
-  std::ofstream(fixture.file, std::ios::binary | std::ios::trunc) << bytes;
+  if (bytes.starts_with("index")) {
+    const io::Bytes place{fixture.whole.size(), size - 5};
+    std::ofstream(fixture.file, std::ios::binary | std::ios::trunc) << fixture.whole + bytes.substr(5);
+    io::seal_checkpoint(fixture.file, place, fixture.model.communicator);
+  } else {
+    std::ofstream(fixture.file, std::ios::binary | std::ios::trunc) << bytes;
+  }
   try {
     io::read_checkpoint(fixture.file, fixture.model, "[lattice]\nspacing = 1\n", fixture.state);
     if (sealed_damage) std::abort();

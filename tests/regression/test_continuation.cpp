@@ -8,6 +8,7 @@
 #include <map>
 #include <sstream>
 
+#include "io/checkpoint_seal.h"
 #include "support/program_test.h"
 
 namespace koshi {
@@ -248,6 +249,32 @@ TEST_F(Continuation, StrongContrastsAreSolvedOrSaidToBeBeyondReach) {
     }
   }
   EXPECT_EQ(checked, 8);
+}
+
+// A checkpoint made by hand, with a right seal: a step that is none, or that would take forever, is refused.
+TEST_F(Continuation, AStepThatNoRunCanTakeIsRefused) {
+  ASSERT_EQ(koshi("run bar.toml --out out --set output.checkpoint_every=1" + moving).code, 0);
+  const fs::path file = directory_ / "out/checkpoint.h5";
+  const std::string whole = test::read_file(file);
+  const Communicator world = Communicator::world();
+  const io::Bytes place = io::check_seal(file, world).index;
+  const std::string index = whole.substr(place.offset, place.count);
+  const std::size_t begin = index.find("scalar "), end = index.find(" time_step\n");
+  ASSERT_LT(begin, end);
+  ASSERT_NE(end, std::string::npos);
+  int refused = 0;
+  for (const std::string step : {"0", "-1e-06", "nan", "inf", "1e-300"}) {
+    const std::string forged = index.substr(0, begin) + "scalar " + step + index.substr(end);
+    test::write_file(file, whole + forged);
+    io::seal_checkpoint(file, {whole.size(), forged.size()}, world);
+    const Ended ended = koshi("run bar.toml --out out --restart out --set output.checkpoint_every=1" + moving +
+                              " --set analysis.duration=1e-3");
+    EXPECT_EQ(ended.code, 2) << step << ended.error;
+    EXPECT_THAT(ended.error,
+                step == "1e-300" ? HasSubstr("1e+12 can be made") : HasSubstr("has a time step of " + step));
+    ++refused;
+  }
+  EXPECT_EQ(refused, 5);
 }
 
 TEST_F(Continuation, AnEquilibriumLeavesNothingToDo) {
