@@ -60,8 +60,9 @@ def main():
             result = subprocess.run(command, env=environment, capture_output=True, text=True, check=False)
         if result.returncode != 0:
             sys.exit(f"{result.stderr[-4000:]}\n{target}: failed; the file is in {kept}")
-        cover = re.findall(r"INITED cov: (\d+)", result.stderr)
-        print(f"{target}: {count} damages of {len(wholes)} files, no signal, no hang; coverage {cover[-1] if cover else '?'} edges", flush=True)
+        # What libFuzzer has run when it is through with the folder: empty files are one.
+        done, cover = re.search(r"#(\d+)\s+INITED cov: (\d+)", result.stderr).groups()
+        print(f"{target}: {done} damages of {len(wholes)} files, no signal, no hang; {cover} edges covered", flush=True)
 
 
 if __name__ == "__main__":

@@ -13,6 +13,9 @@ MPI_Comm mpi(int handle) { return MPI_Comm_f2c(handle); }
 // A process without a launcher needs no daemon of one, which would want programs of a PATH and a home directory.
 void start(int* argc, char*** argv) {
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+  // Such processes share one directory in /tmp, which the first of them to end takes away: nothing may be kept there.
+  // Open MPI would put the pointer that ranks share in a file there, which no file of Koshi's uses.
+  ::setenv("OMPI_MCA_sharedfp", "individual", 0);
   MPI_Init(argc, argv);
 }
 

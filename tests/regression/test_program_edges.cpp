@@ -114,6 +114,34 @@ TEST_F(Edges, TwoRunsDoNotMixTheirResults) {
   EXPECT_FALSE(fs::exists(directory_ / "out/koshi.lock"));
 }
 
+// A run that ends takes nothing away from one that goes on beside it.
+TEST_F(Edges, RunsBesideEachOtherKeepTheirCheckpoints) {
+  const pid_t first = ::fork();
+  if (first == 0) {
+    if (::chdir(directory_.path().c_str()) != 0 || std::freopen("first.txt", "w", stderr) == nullptr) ::_exit(1);
+    ::execl(KOSHI_PROGRAM, "koshi", "run", "motion.toml", "--out", "first", "--quiet", "--set",
+            "analysis.duration=1000", nullptr);
+    ::_exit(1);
+  }
+  const auto wait_for_checkpoint = [&](const fs::path& file) {
+    while (!fs::exists(file) && ::waitpid(first, nullptr, WNOHANG) == 0) std::this_thread::yield();
+    return fs::exists(file);
+  };
+  ASSERT_TRUE(wait_for_checkpoint(directory_ / "first/checkpoint.h5"));
+  EXPECT_EQ(koshi("run motion.toml --out second --quiet").code, 0);
+  // Two more: the second one began when the other run had ended.
+  for (int count = 0; count < 2; ++count) {
+    fs::remove(directory_ / "first/checkpoint.h5");
+    ASSERT_TRUE(wait_for_checkpoint(directory_ / "first/checkpoint.h5"));
+  }
+  ASSERT_EQ(::kill(first, SIGTERM), 0);
+  int status = 0;
+  ASSERT_EQ(::waitpid(first, &status, 0), first);
+  EXPECT_EQ(WEXITSTATUS(status), 1);
+  EXPECT_THAT(test::read_file(directory_ / "first.txt"),
+              testing::MatchesRegex("error: stopped by a signal [^\n]*--restart first/checkpoint.h5\n"));
+}
+
 TEST_F(Edges, MoreRanksThanNodesAreRefusedBeforeAnyStarts) {
   const Ended ended = koshi("run static.toml --out out --ranks 200");
   EXPECT_EQ(ended.code, 2);
