@@ -26,6 +26,22 @@ int finish(int code) {
   return code == 0 ? 1 : code;
 }
 
+// An option that the command does not have, with the nearest that it has; empty if it was something else.
+std::string unknown_option(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (app.get_subcommands().empty()) return {};
+  const CLI::App& command = *app.get_subcommands().front();
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    if (!option->get_lnames().empty()) known.push_back("--" + option->get_lnames().front());
+  for (const std::string& argument : arguments) {
+    const std::string name = argument.substr(0, argument.find('='));
+    if (name.starts_with("--") && std::find(known.begin(), known.end(), name) == known.end())
+      return "error: koshi " + command.get_name() + " has no option \"" + name + "\"; " +
+             koshi::suggestion(name, known) + '\n';
+  }
+  return {};
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -59,7 +75,8 @@ int main(int argc, char** argv) {
     return finish(app.exit(success));
   } catch (const CLI::ParseError& error) {
     std::ostringstream text;
-    app.exit(error, text, text);
+    text << unknown_option(app, own);
+    if (text.str().empty()) app.exit(error, text, text);
     std::cerr << koshi::escaped(text.str(), true);
     return 2;
   } catch (const koshi::InputError& error) {

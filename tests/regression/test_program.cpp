@@ -112,7 +112,8 @@ TEST_F(Program, RefusesWrongInputBeforeItMakesTheOutputDirectory) {
       {"", "A subcommand is required\n"},
       {"chek case.toml", "error: there is no command \"chek\"; did you mean \"check\"?\n"},
       {"run", "case is required\n"},
-      {"run case.toml --out new --fast", "The following argument was not expected: --fast\n"},
+      {"run case.toml --out new --fast", "error: koshi run has no option \"--fast\"; known: \"--help\", \"--out\""},
+      {"run case.toml --out new --rank 2", "error: koshi run has no option \"--rank\"; did you mean \"--ranks\"?\n"},
       {"run case.toml --out new --ranks 0", "--ranks: Value 0 not in range"},
       {"run case.toml --out new --set analysis.typ=1",
        "--set analysis.typ=1: error: unknown key \"typ\" in [analysis]; did you mean \"type\"?\n"},
@@ -128,7 +129,7 @@ TEST_F(Program, RefusesWrongInputBeforeItMakesTheOutputDirectory) {
     EXPECT_FALSE(fs::exists(directory_ / "new")) << wrong.arguments;
     ++checked;
   }
-  EXPECT_EQ(checked, 23);
+  EXPECT_EQ(checked, 24);
   EXPECT_EQ(test::read_file(directory_ / "foreign/thesis.txt"), "precious");
   EXPECT_EQ(std::distance(fs::directory_iterator(directory_ / "foreign"), fs::directory_iterator()), 1);
 }
