@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cerrno>
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -45,6 +46,8 @@ std::string unknown_option(const CLI::App& app, const std::vector<std::string>& 
 }  // namespace
 
 int main(int argc, char** argv) {
+  // A file that may not grow (ulimit -f) is an error of the write, which says which file, not the end of the program.
+  std::signal(SIGXFSZ, SIG_IGN);
   using koshi::app::Arguments;
   const Arguments all(argv, argv + argc);
   // What follows "--" is for PETSc.

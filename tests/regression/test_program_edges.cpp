@@ -182,6 +182,14 @@ TEST_F(Edges, FilesBeyondMemoryAreNamed) {
   EXPECT_EQ(checked, 3);
 }
 
+// A limit on the size of files is an error of the write, as a full disk is; blocks of 512 bytes or of 1024.
+TEST_F(Edges, FilesThatMayNotGrowAreAnErrorThatNamesThem) {
+  const Ended ended = koshi("--version >/dev/null; ulimit -f 8; '" + std::string(KOSHI_PROGRAM) +
+                            "' run static.toml --out out --quiet");
+  EXPECT_EQ(ended.code, 1);
+  EXPECT_EQ(ended.error, "error: cannot write out/checkpoint.h5.part: File too large\n");
+}
+
 // What goes wrong in a library is said in this program's words.
 TEST_F(Edges, WrongOptionsOfPetscAreOneLine) {
   int checked = 0;
