@@ -14,7 +14,7 @@ function(koshi_kernels source)
   get_filename_component(stem ${source} NAME_WE)
   foreach(set ${KOSHI_KERNEL_SETS})
     add_library(koshi_${stem}_${set} OBJECT ${source})
-    target_include_directories(koshi_${stem}_${set} PRIVATE ${PROJECT_SOURCE_DIR}/src)
+    target_include_directories(koshi_${stem}_${set} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
     target_compile_options(koshi_${stem}_${set} PRIVATE -O3 -Wall -Wextra $<$<BOOL:${KOSHI_WERROR}>:-Werror>
       -fno-signed-zeros -ffinite-math-only -fno-trapping-math -Wno-psabi ${KOSHI_KERNEL_FLAGS_${set}})
     target_compile_definitions(koshi_${stem}_${set} PRIVATE KOSHI_ISA=${set})

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <vector>
 
@@ -49,10 +50,18 @@ class Made {
   std::vector<fs::path> made_;
 };
 
-bool holds_results(const fs::path& directory) {
+bool is_marked(const fs::path& directory) {
+  std::error_code error;
   for (const char* name : {"resolved.toml", "summary.json", "paper.json", LockFile::name})
-    if (fs::exists(directory / name)) return true;
+    if (fs::exists(directory / name, error)) return true;
   return false;
+}
+
+// A study that was broken off has but the directories of its runs.
+bool holds_results(const fs::path& directory) {
+  std::error_code error;
+  return is_marked(directory) || std::all_of(fs::directory_iterator(directory, error), fs::directory_iterator(),
+                                             [](const fs::path& entry) { return is_marked(entry); });
 }
 
 // Where a run writes files, nothing else may be; in fields/ nothing but samples.

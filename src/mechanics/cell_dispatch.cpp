@@ -2,6 +2,7 @@
 
 #include "base/instruction_set.h"
 #include "mechanics/cell_strip.h"
+#include "mechanics/plain_rows.h"
 #include "mechanics/relax_rows.h"
 
 namespace koshi::mechanics {
@@ -11,6 +12,7 @@ namespace koshi::mechanics {
   extern const StripKernels<float> strip_kernels_float;   \
   extern const StripKernels<double> strip_kernels_double; \
   extern const RelaxKernels relax_kernels;                \
+  extern const PlainKernels plain_kernels;                \
   }
 KOSHI_DECLARE(baseline)
 #if defined(KOSHI_X86_KERNELS)
@@ -24,17 +26,19 @@ struct Kernels {
   const StripKernels<float>& single;
   const StripKernels<double>& twofold;
   const RelaxKernels& relax;
+  const PlainKernels& plain;
 };
 
 const Kernels& kernels() {
   static const Kernels chosen = []() -> Kernels {
 #if defined(KOSHI_X86_KERNELS)
     if (instruction_set() == InstructionSet::avx512)
-      return {avx512::strip_kernels_float, avx512::strip_kernels_double, avx512::relax_kernels};
+      return {avx512::strip_kernels_float, avx512::strip_kernels_double, avx512::relax_kernels, avx512::plain_kernels};
     if (instruction_set() == InstructionSet::avx2)
-      return {avx2::strip_kernels_float, avx2::strip_kernels_double, avx2::relax_kernels};
+      return {avx2::strip_kernels_float, avx2::strip_kernels_double, avx2::relax_kernels, avx2::plain_kernels};
 #endif
-    return {baseline::strip_kernels_float, baseline::strip_kernels_double, baseline::relax_kernels};
+    return {baseline::strip_kernels_float, baseline::strip_kernels_double, baseline::relax_kernels,
+            baseline::plain_kernels};
   }();
   return chosen;
 }
@@ -53,5 +57,7 @@ template const StripKernels<float>& strip_kernels<float>();
 template const StripKernels<double>& strip_kernels<double>();
 
 const RelaxKernels& relax_kernels() { return kernels().relax; }
+
+const PlainKernels& plain_kernels() { return kernels().plain; }
 
 }  // namespace koshi::mechanics

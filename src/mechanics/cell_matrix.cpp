@@ -64,7 +64,7 @@ Eigen::MatrixXd cell_matrix(const material::Springs& springs, double d, material
       for (int q = 0; q < size; ++q) {
         const Corners c = unit(q, d, kinematics);
         const Vec3 rq = relative_displacement(c.u[a1], c.u[a2], 0.5 * (c.w[a1] + c.w[a2]), D);
-        const Vec3 Fq = bond_force(kn, kt, D, rq).F;
+        const Vec3 Fq = bond_force(kn, kt, D, rq);
         for (int i = 0; i < 3; ++i) {
           r(i, q) = rq[i];
           F(i, q) = Fq[i];

@@ -43,7 +43,7 @@ CellState cell_state(const model::SpringLattice& body, const lattice::Field<doub
     const Vec3 D = -d * Vec3{static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])};
     const Vec3 w = rotational ? 0.5 * (rotation[bond.a] + rotation[bond.b]) : state.rotation;
     const Vec3 r = relative_displacement(displacement[bond.a], displacement[bond.b], w, D);
-    const Vec3 F = bond_force(kn, kt, D, r).F;
+    const Vec3 F = bond_force(kn, kt, D, r);
     state.energy += bond_energy(kn, kt, D, r) / volume;
     for (int v = 0; v < 6; ++v) {
       const auto [i, j] = pairs[v];

@@ -4,6 +4,7 @@
 
 #include "mechanics/bond_law.h"
 #include "mechanics/cell_bonds.h"
+#include "mechanics/plain_rows.h"
 
 namespace koshi::mechanics {
 namespace {
@@ -19,47 +20,32 @@ Vec3 at(const lattice::Field<double>& u, int component, std::int64_t node) {
 PlainForces::PlainForces(const model::SpringLattice& lattice)
     : lattice_(lattice), bond_(lattice.sharing == material::Sharing::plain ? lattice.bond : own_bond_) {
   if (lattice.sharing == material::Sharing::shared) make_bonds(lattice, own_bond_, own_bond_cells_);
+  const auto any = [&lattice](auto&& has) { return std::any_of(lattice.springs.begin(), lattice.springs.end(), has); };
+  for (int slot = 0; slot < lattice::slot_count; ++slot) {
+    const int family = lattice::slots[slot].family;
+    if (any([family](const material::Springs& s) { return s.kn[family] != 0 || s.kt[family] != 0; }))
+      slots_.push_back(slot);
+  }
+  by_cell_ = lattice.components() == 3 || any([](const material::Springs& s) { return s.kappa != 0; });
 }
 
-// The bonds of each node, forwards and backwards: with node rotations their whole force, else that of the displacements
-// without any rotation.
-template <bool rotational>
+// The bonds of each node, forwards and backwards.
 void PlainForces::add_bonds(const lattice::Field<double>& u, std::int64_t first, double* const* force) const {
-  const lattice::Layout& layout = lattice_.layout;
-  const std::int64_t nodes = layout.owned()[0];
-  for (int slot = 0; slot < lattice::slot_count; ++slot)
+  for (const int slot : slots_)
     for (const int sign : {1, -1}) {
       const auto& s = lattice::slots[slot].s;
-      const Vec3 D = -sign * lattice_.grid.d *
-                     Vec3{static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])};
-      const std::int64_t to = sign * layout.offset(s), owner = sign > 0 ? first : first + to;
-      const double *const kn = bond_.component(2 * slot) + owner, *const kt = bond_.component(2 * slot + 1) + owner;
-      std::array<const double*, 6> near{}, far{};
-      for (int c = 0; c < (rotational ? 6 : 3); ++c) {
-        near[c] = u.component(c) + first;
-        far[c] = near[c] + to;
-      }
-      double *const fx = force[0], *const fy = force[1], *const fz = force[2];
-      double *const mx = rotational ? force[3] : nullptr, *const my = rotational ? force[4] : nullptr,
-                    *const mz = rotational ? force[5] : nullptr;
-      // Several nodes at once: absent bonds have no stiffness.
-#pragma GCC ivdep
-      for (std::int64_t i = 0; i < nodes; ++i) {
-        Vec3 w{};
-        if constexpr (rotational)
-          w = {0.5 * (near[3][i] + far[3][i]), 0.5 * (near[4][i] + far[4][i]), 0.5 * (near[5][i] + far[5][i])};
-        const Vec3 r =
-            relative_displacement({near[0][i], near[1][i], near[2][i]}, {far[0][i], far[1][i], far[2][i]}, w, D);
-        const BondForce bond = bond_force(kn[i], kt[i], D, r);
-        fx[i] -= bond.F[0];
-        fy[i] -= bond.F[1];
-        fz[i] -= bond.F[2];
-        if constexpr (rotational) {
-          mx[i] += bond.M[0];
-          my[i] += bond.M[1];
-          mz[i] += bond.M[2];
-        }
-      }
+      const std::int64_t to = sign * lattice_.layout.offset(s), owner = sign > 0 ? first : first + to;
+      const double d = -sign * lattice_.grid.d;
+      plain_kernels().add_bonds(
+          {u.component(0) + first,
+           u.stride(),
+           to,
+           bond_.component(2 * slot) + owner,
+           bond_.component(2 * slot + 1) + owner,
+           {d * static_cast<double>(s[0]), d * static_cast<double>(s[1]), d * static_cast<double>(s[2])},
+           force,
+           lattice_.layout.owned()[0]},
+          lattice_.components());
     }
 }
 
@@ -111,8 +97,8 @@ void PlainForces::add_cells(const lattice::Field<double>& u, std::int64_t first,
 void PlainForces::row(const lattice::Field<double>& u, std::int64_t j, std::int64_t k, double* const* force) const {
   for (int c = 0; c < lattice_.components(); ++c) std::fill_n(force[c], lattice_.layout.owned()[0], 0.0);
   const std::int64_t first = lattice_.layout.index(0, j, k);
-  lattice_.components() == 6 ? add_bonds<true>(u, first, force) : add_bonds<false>(u, first, force);
-  add_cells(u, first, force);
+  add_bonds(u, first, force);
+  if (by_cell_) add_cells(u, first, force);
 }
 
 }  // namespace koshi::mechanics

@@ -2,6 +2,8 @@
 // cell kernel, and serves plain springs, which are no sum over cells with constants of their own.
 #pragma once
 
+#include <vector>
+
 #include "koshi/spring_lattice.h"
 
 namespace koshi::mechanics {
@@ -11,12 +13,11 @@ class PlainForces {
  public:
   explicit PlainForces(const model::SpringLattice& lattice);
 
-  /// Forces [N] and moments [N m] on the nodes of row (j, k), `force` by component, pointing to node i = 0. Ghosts of u
-  /// must be up to date.
+  /// Forces [N] and moments [N m] on the nodes of row (j, k), `force` by component, pointing to node i = 0, with
+  /// room for whole lines of 64 bytes. Ghosts of u must be up to date.
   void row(const lattice::Field<double>& u, std::int64_t j, std::int64_t k, double* const* force) const;
 
  private:
-  template <bool rotational>
   void add_bonds(const lattice::Field<double>& u, std::int64_t first, double* const* force) const;
   void add_cells(const lattice::Field<double>& u, std::int64_t first, double* const* force) const;
 
@@ -24,6 +25,8 @@ class PlainForces {
   lattice::Field<double> own_bond_;  ///< of shared springs, which the lattice does not keep
   lattice::Field<std::uint8_t> own_bond_cells_;
   const lattice::Field<double>& bond_;
+  std::vector<int> slots_;  ///< those with springs
+  bool by_cell_;            ///< is there anything that belongs to cells?
 };
 
 }  // namespace koshi::mechanics

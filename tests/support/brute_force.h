@@ -105,17 +105,17 @@ inline BruteForce brute_force(const model::SpringLattice& body, const std::vecto
                     ? fitted
                     : 0.5 * (Vec3{u[id[a]][3], u[id[a]][4], u[id[a]][5]} + Vec3{u[id[b]][3], u[id[b]][4], u[id[b]][5]});
             const Vec3 r = mechanics::relative_displacement(disp[a], disp[b], w, D);
-            const mechanics::BondForce bond = mechanics::bond_force(kn, kt, D, r);
+            const Vec3 F = mechanics::bond_force(kn, kt, D, r), M = mechanics::bond_moment(D, F);
             result.energy += mechanics::bond_energy(kn, kt, D, r);
             for (int i = 0; i < 3; ++i) {
-              result.force[id[a]][i] -= bond.F[i];
-              result.force[id[b]][i] += bond.F[i];
+              result.force[id[a]][i] -= F[i];
+              result.force[id[b]][i] += F[i];
               if (rotational) {
-                result.force[id[a]][3 + i] += bond.M[i];
-                result.force[id[b]][3 + i] += bond.M[i];
+                result.force[id[a]][3 + i] += M[i];
+                result.force[id[b]][3 + i] += M[i];
               }
             }
-            moment = moment + 2.0 * bond.M;
+            moment = moment + 2.0 * M;
           }
         for (int a = 0; a < 8; ++a) {
           const Vec3 s{sign(a, 0), sign(a, 1), sign(a, 2)};

@@ -92,7 +92,7 @@ TEST(CellMatrix, MomentsOfTheBondLaw) {
   q.segment<6>(42) << -0.7, 0.8, 0.9, -0.1, 0.2, 0.35;
   const Vec3 D{-d, -d, -d};
   const Vec3 r = relative_displacement({0.1, -0.2, 0.3}, {-0.7, 0.8, 0.9}, {0.15, 0.35, -0.125}, D);
-  const auto [F, M] = bond_force(2.0, 0.6, D, r);
+  const Vec3 F = bond_force(2.0, 0.6, D, r), M = bond_moment(D, F);
   const Eigen::VectorXd force = -K * q;
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(force(i), -F[i], 1e-14);

@@ -93,7 +93,7 @@ TEST(Dispersion, DynamicMatrixAgreesWithTheBondSum) {
         const Vec3 D{-d * slot.s[0], -d * slot.s[1], -d * slot.s[2]};
         const Vec3 w = 0.5 * (vector(node1, 3) + vector(node2, 3));
         const Vec3 r = relative_displacement(vector(node1, 0), vector(node2, 0), w, D);
-        const auto [F, M] = bond_force(springs.kn[slot.family], springs.kt[slot.family], D, r);
+        const Vec3 F = bond_force(springs.kn[slot.family], springs.kt[slot.family], D, r), M = bond_moment(D, F);
         for (int c = 0; c < 3; ++c) {
           force(c) -= part * (sign * F[c]);
           force(3 + c) += part * M[c];

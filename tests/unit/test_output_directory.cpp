@@ -62,6 +62,14 @@ TEST_F(OutputDirectoryTest, OthersFilesAreRefusedAndEarlierResultsAreNot) {
   }
 }
 
+TEST_F(OutputDirectoryTest, StudyThatWasBrokenOffIsNoForeigner) {
+  fs::create_directories(temporary / "study/first");
+  replace_file(temporary / "study/first/resolved.toml", "old");
+  EXPECT_NO_THROW(make(temporary / "study"));
+  replace_file(temporary / "study/letter.txt", "dear");
+  EXPECT_THAT([&] { make(temporary / "study"); }, ThrowsMessage<InputError>(HasSubstr("no results of Koshi")));
+}
+
 TEST_F(OutputDirectoryTest, PlaceWithoutRightsIsRefused) {
   // Root may write everywhere: become somebody else for this test.
   const uid_t user = ::geteuid();

@@ -63,7 +63,8 @@ double difference(const model::SpringLattice& body, mechanics::ForceKernel& kern
   const lattice::Field<double> u = random_motion(body);
   const mechanics::PlainForces plain(body);
   const auto nodes = static_cast<std::size_t>(body.layout.owned()[0]);
-  std::vector<std::vector<double>> row(static_cast<std::size_t>(body.components()), std::vector<double>(nodes));
+  std::vector<std::vector<double>> row(static_cast<std::size_t>(body.components()),
+                                       std::vector<double>(nodes + lattice::Layout::lead));
   std::array<double*, 6> expected{};
   for (std::size_t c = 0; c < row.size(); ++c) expected[c] = row[c].data();
   double largest = 0, error = 0;
