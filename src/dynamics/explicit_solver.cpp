@@ -91,7 +91,7 @@ struct ExplicitSolver::Implementation {
   // Takes rows through phases 2 to 7.
   void advance(const Rows& rows) {
     kernel.for_each_row(
-        state.displacement, rows,  // 2. internal force
+        state.displacement, rows, [this](std::int64_t n) { fetch(n); },  // 2. internal force
         [&](std::int64_t j, std::int64_t k, double* const* force) {
           loads.add(j, k, force);      // 3. add loads
           damp_and_kick(j, k, force);  // 4. and 5.
@@ -102,12 +102,18 @@ struct ExplicitSolver::Implementation {
         });
   }
 
+  // What phases 4 to 7 need of a line of nodes.
+  void fetch(std::int64_t n) {
+    for (int c = 0; c < model.components(); ++c) __builtin_prefetch(state.velocity.component(c) + n, 1, 2);
+    for (int c = 0; c < inverse_inertia.components(); ++c) __builtin_prefetch(inverse_inertia.component(c) + n, 0, 2);
+  }
+
   // 4. Damp (N27) and 5. kick: velocities by the acceleration (N5).
   void damp_and_kick(std::int64_t j, std::int64_t k, double* const* force) {
     const lattice::Layout& layout = model.layout();
     const std::int64_t n = layout.index(0, j, k);
     for (int c = 0; c < model.components(); ++c)
-      update.kick(kick, layout.owned()[0], layout.pitch(), force[c], inverse_inertia.component(c < 3 ? 0 : 1) + n,
+      update.kick(kick, layout.owned()[0], force[c], inverse_inertia.component(c < 3 ? 0 : 1) + n,
                   state.velocity.component(c) + n);
   }
 

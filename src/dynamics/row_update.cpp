@@ -6,12 +6,10 @@ namespace {
 
 constexpr std::int64_t width = 8;
 
-void kick(const Kick& k, std::int64_t nodes, std::ptrdiff_t next, const double* __restrict force,
-          const double* __restrict inverse_mass, double* __restrict velocity) {
+void kick(const Kick& k, std::int64_t nodes, const double* __restrict force, const double* __restrict inverse_mass,
+          double* __restrict velocity) {
   const double keep = k.keep, gain = k.gain, alpha = k.alpha;
   for (std::int64_t begin = 0; begin < nodes; begin += width) {
-    __builtin_prefetch(velocity + begin + next, 1, 2);
-    __builtin_prefetch(inverse_mass + begin + next, 0, 2);
     for (std::int64_t i = begin; i < begin + width; ++i) {
       const double F = force[i], v = velocity[i];
       const double resisting = alpha * (F < 0 ? -F : F);

@@ -15,9 +15,7 @@ struct Kick {
 
 /// Rows start at node i = 0 and are handled in whole vectors; padding holds inverse masses of zero and stays zero.
 struct RowUpdate {
-  /// `next`: distance to the row that is kicked next, which is fetched on the way.
-  void (*kick)(const Kick& kick, std::int64_t nodes, std::ptrdiff_t next, const double* force,
-               const double* inverse_mass, double* velocity);
+  void (*kick)(const Kick& kick, std::int64_t nodes, const double* force, const double* inverse_mass, double* velocity);
   /// u <- u + dt v (N6).
   void (*drift)(double dt, std::int64_t nodes, const double* velocity, double* displacement);
 };

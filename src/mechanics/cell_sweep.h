@@ -59,14 +59,16 @@ class CellSweep {
   /// Calls use(j, k, force) for every row once its force is known; force[c] points to node i = 0 and may be changed; it
   /// is valid until the next call. Calls release(j, k) for every row when its values are not needed any more.
   /// `constants(i, j, k, cells, to)` gives the prepared constants of the strip of cells that begins with (i, j, k), or
-  /// null if it has no cell; `to` is memory for them, which keeps what was put there last.
-  template <class Constants, class Use, class Release>
-  void run(const NodeValues<T>& u, const Rows& rows, Constants&& constants, Use&& use, Release&& release) {
+  /// null if it has no cell; `to` is memory for them, which keeps what was put there last. `fetch(i, j, k, nodes)` says
+  /// that use(j, k) comes soon, a strip of nodes at a time: what it needs may be fetched into the cache.
+  template <class Constants, class Fetch, class Use, class Release>
+  void run(const NodeValues<T>& u, const Rows& rows, Constants&& constants, Fetch&& fetch, Use&& use,
+           Release&& release) {
     if (rows.empty()) return;
     for (std::int64_t j0 = rows.j0; j0 < rows.j1; j0 += block_rows_) {
       const Rows block{j0, std::min(j0 + block_rows_, rows.j1), rows.k0, rows.k1};
       for (std::int64_t k = rows.k0 - 1; k < rows.k1; ++k) {
-        add_layer(u, block, k, constants);
+        add_layer(u, block, k, constants, fetch);
         if (k < rows.k0) continue;
         for (std::int64_t j = block.j0; j < block.j1; ++j) {
           std::array<T*, 6> force;
@@ -96,14 +98,15 @@ class CellSweep {
   }
 
   // Adds the cells between planes k and k + 1 to the nodes of both.
-  template <class Constants>
-  void add_layer(const NodeValues<T>& u, const Rows& block, std::int64_t k, Constants&& constants) {
+  template <class Constants, class Fetch>
+  void add_layer(const NodeValues<T>& u, const Rows& block, std::int64_t k, Constants&& constants, Fetch&& fetch) {
     for (Carry& carry : carries_) carry = {};
-    for (std::int64_t i = begin_; i < nodes_; i += strip_cells) add_strip(u, block, i, k, constants);
+    for (std::int64_t i = begin_; i < nodes_; i += strip_cells) add_strip(u, block, i, k, constants, fetch);
   }
 
-  template <class Constants>
-  void add_strip(const NodeValues<T>& u, const Rows& block, std::int64_t i, std::int64_t k, Constants&& constants) {
+  template <class Constants, class Fetch>
+  void add_strip(const NodeValues<T>& u, const Rows& block, std::int64_t i, std::int64_t k, Constants&& constants,
+                 Fetch&& fetch) {
     const StripKernels<T>& kernels = strip_kernels<T>();
     Strip<T>& strip = *strip_;
     const std::int64_t cells = std::min(strip_cells, (nodes_ - i + lead - 1) / lead * lead);
@@ -128,7 +131,9 @@ class CellSweep {
       }
       const bool any = k_cells != nullptr || pending;
       known = pending = k_cells != nullptr;
-      if (j >= block.j0) deliver(any, block, i, j, k, cells, first);
+      if (j < block.j0) continue;
+      if (!first) fetch(i, j, k, cells);
+      deliver(any, block, i, j, k, cells, first);
     }
   }
 

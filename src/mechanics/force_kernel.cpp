@@ -61,6 +61,10 @@ void ForceKernel::sweep(const lattice::Field<double>& u, const Rows& rows, const
   sweep_.run(
       {u.component(0) + layout.index(0, 0, 0), u.stride(), layout.pitch(), layout.plane()}, rows,
       [this](auto i, auto j, auto k, auto cells, double* to) { return constants(i, j, k, cells, to); },
+      [&](auto i, auto j, auto k, auto nodes) {
+        const std::int64_t n = layout.index(i, j, k);
+        callbacks.call_fetch(callbacks.fetch, n, n + nodes);
+      },
       [&](auto j, auto k, double* const* force) { callbacks.call_use(callbacks.use, j, k, force); },
       [&](auto j, auto k) { callbacks.call_release(callbacks.release, j, k); });
 }

@@ -26,19 +26,26 @@ class ForceKernel {
   /// Calls use(j, k, force) for every one of the given rows of owned nodes: forces [N] and moments [N m] by component,
   /// pointers to node i = 0, valid until the next call; `use` may change them. Ghosts of `u` must be up to date. Calls
   /// release(j, k) for every one of these rows when the force on none of them needs its `u` any more: it may change.
-  template <class Use, class Release>
-  void for_each_row(const lattice::Field<double>& u, const Rows& rows, Use&& use, Release&& release) {
+  /// What `use` needs of fields of the lattice's layout may be fetched into the cache before: fetch(n) is called for
+  /// nodes n, n + 1, ... on a line of 64 bytes.
+  template <class Fetch, class Use, class Release>
+  void for_each_row(const lattice::Field<double>& u, const Rows& rows, Fetch&& fetch, Use&& use, Release&& release) {
+    using F = std::remove_reference_t<Fetch>;
     using U = std::remove_reference_t<Use>;
     using R = std::remove_reference_t<Release>;
     sweep(u, rows,
-          {&use, &release,
+          {&fetch, &use, &release,
+           [](void* f, std::int64_t n, std::int64_t end) {
+             for (; n < end; n += lattice::Layout::lead) (*static_cast<F*>(f))(n);
+           },
            [](void* f, std::int64_t j, std::int64_t k, double* const* force) { (*static_cast<U*>(f))(j, k, force); },
            [](void* f, std::int64_t j, std::int64_t k) { (*static_cast<R*>(f))(j, k); }});
   }
-  /// The same for all owned rows, without release.
+  /// The same for all owned rows, without fetch and release.
   template <class Use>
   void for_each_row(const lattice::Field<double>& u, Use&& use) {
-    for_each_row(u, all_rows(), use, [](std::int64_t, std::int64_t) {});
+    for_each_row(
+        u, all_rows(), [](std::int64_t) {}, use, [](std::int64_t, std::int64_t) {});
   }
 
   /// force = -K u on all owned nodes; exchanges the ghosts of u on the way (collective).
@@ -51,7 +58,8 @@ class ForceKernel {
  private:
   /// References to the functions of for_each_row().
   struct Callbacks {
-    void *use, *release;
+    void *fetch, *use, *release;
+    void (*call_fetch)(void*, std::int64_t begin, std::int64_t end);
     void (*call_use)(void*, std::int64_t j, std::int64_t k, double* const* force);
     void (*call_release)(void*, std::int64_t j, std::int64_t k);
   };

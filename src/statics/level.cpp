@@ -113,6 +113,11 @@ void Level::for_each_row(F&& use) {
   sweep_.run(
       {x.row(0, 0), x.pitch(), x.row(1, 0) - x.row(0, 0), x.row(0, 1) - x.row(0, 0)}, {0, owned[1], 0, owned[2]},
       constants,
+      [&](std::int64_t i, std::int64_t j, std::int64_t k, std::int64_t nodes) {
+        if (blocks_.row(j, k) == nullptr) return;
+        b.fetch(i, j, k, nodes);
+        y_.fetch(i, j, k, nodes);
+      },
       [&](std::int64_t j, std::int64_t k, float* const* force) {
         if (blocks_.row(j, k) != nullptr) use(j, k, relax_row(j, k, force[0]));
       },

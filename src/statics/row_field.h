@@ -44,6 +44,11 @@ class RowField {
   /// Node i = 0 of row (j, k), component 0; -1 <= j <= owned y, -1 <= k <= owned z, -1 <= i <= owned x.
   T* row(std::int64_t j, std::int64_t k) { return data_.get() + width + row_ * (j + 1) + plane_ * (k + 1); }
   const T* row(std::int64_t j, std::int64_t k) const { return data_.get() + width + row_ * (j + 1) + plane_ * (k + 1); }
+  /// Nodes i, i + 1, ... of row (j, k) are needed soon: fetches them into the second-level cache.
+  void fetch(std::int64_t i, std::int64_t j, std::int64_t k, std::int64_t nodes) const {
+    for (int c = 0; c < components_; ++c)
+      for (std::int64_t n = i; n < i + nodes; n += width) __builtin_prefetch(row(j, k) + c * pitch_ + n, 0, 2);
+  }
   void zero() { std::memset(data_.get(), 0, static_cast<std::size_t>(size()) * sizeof(T)); }
 
   /// Fills the ghosts (collective over the neighbours).

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <set>
 
 #include "mechanics/cell_stress.h"
 #include "mechanics/force_kernel.h"
@@ -152,12 +153,14 @@ TEST_P(CellKernel, RowsDoNotDependOnTheirCompany) {
   lattice::Field<double> input = u;
   kernel.apply(input, all);
   int rows = 0, released = 0;
+  std::set<std::int64_t> fetched;
   for (const mechanics::Rows& part :
        {mechanics::Rows{2, 5, 1, 4}, {0, 1, 0, 7}, {3, b.layout.owned()[1], 6, 7}, {4, 4, 0, 7}})
     kernel.for_each_row(
-        u, part,
+        u, part, [&](std::int64_t n) { fetched.insert(n); },
         [&](std::int64_t j, std::int64_t k, double* const* force) {
           ++rows;
+          EXPECT_TRUE(fetched.contains(b.layout.index(0, j, k))) << "what is used has been fetched";
           for (int c = 0; c < b.components(); ++c)
             for (std::int64_t i = 0; i < b.layout.owned()[0]; ++i)
               ASSERT_EQ(force[c][i], all.component(c)[b.layout.index(i, j, k)]) << i << " " << j << " " << k;
@@ -165,6 +168,7 @@ TEST_P(CellKernel, RowsDoNotDependOnTheirCompany) {
         [&](std::int64_t, std::int64_t) { ++released; });
   EXPECT_EQ(rows, 9 + 7 + b.layout.owned()[1] - 3);
   EXPECT_EQ(released, rows);
+  EXPECT_GE(fetched.size(), static_cast<std::size_t>(rows));
 }
 
 // Stress and energy of cells scale with their factor.
