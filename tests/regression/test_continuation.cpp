@@ -207,7 +207,7 @@ TEST_F(Continuation, AnotherDurationKeepsTheStep) {
 
 // 4 GB of bar do not fit into an address space of 1.5 GB: said before anything is made.
 TEST_F(Continuation, ALimitOfTheAddressSpaceIsRespected) {
-  if (!test::address_space_is_free) GTEST_SKIP() << "under the address sanitizer";
+  if (!test::without_address_sanitizer) GTEST_SKIP() << "under the address sanitizer";
   const Ended ended = test::koshi_in_small_memory(
       directory_.path(), "run bar.toml --out new --set 'body.size=[\"40 cm\", \"4 m\", \"4 m\"]'");
   EXPECT_EQ(ended.code, 2);

@@ -27,11 +27,12 @@ inline std::string read_file(const std::filesystem::path& file) {
 
 inline void write_file(const std::filesystem::path& file, const std::string& text) { std::ofstream(file) << text; }
 
-/// Whether the program can run within a limit of its address space: the address sanitizer reserves terabytes of it.
+/// The address sanitizer reserves terabytes of address space, so that no limit can be set, and reports what libraries
+/// leak.
 #ifdef __SANITIZE_ADDRESS__
-inline constexpr bool address_space_is_free = false;
+inline constexpr bool without_address_sanitizer = false;
 #else
-inline constexpr bool address_space_is_free = true;
+inline constexpr bool without_address_sanitizer = true;
 #endif
 
 /// Runs `koshi ARGUMENTS` through the shell in a directory.

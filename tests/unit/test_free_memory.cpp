@@ -54,7 +54,7 @@ TEST(FreeMemory, OfControlGroupsVersionOne) {
 }
 
 TEST(FreeMemory, OfTheAddressSpaceIsForEachRank) {
-  if (!test::address_space_is_free) GTEST_SKIP() << "under the address sanitizer";
+  if (!test::without_address_sanitizer) GTEST_SKIP() << "under the address sanitizer";
   rlimit before{};
   ASSERT_EQ(getrlimit(RLIMIT_AS, &before), 0);
   rlimit limit = before;
