@@ -22,7 +22,7 @@ ARROWS = {
     "mechanics": ["model"],
     "calibration": ["mechanics"],
     "failure": ["mechanics"],
-    "dynamics": ["mechanics"],
+    "dynamics": ["failure"],
     "statics": ["mechanics"],
     "io": ["model"],
     "report": ["calibration", "io"],

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "koshi/error.h"
+#include "koshi/fracture.h"
 #include "koshi/lattice.h"
 #include "koshi/springs.h"
 
@@ -51,8 +52,10 @@ struct BodyDefinition {
 
 /// [material.NAME]
 struct MaterialDefinition {
-  std::string name;           ///< not "void"
-  material::Elastic elastic;  ///< E, nu, density
+  std::string name;                              ///< not "void"
+  material::Elastic elastic;                     ///< E, nu, density
+  std::optional<material::Fracture> fracture{};  ///< unset: it does not crack
+  bool cracks() const { return fracture && fracture->law != material::FractureLaw::none; }  ///< may crack
   bool operator==(const MaterialDefinition&) const = default;
 };
 
@@ -176,7 +179,8 @@ struct ProbeDefinition {
 
 /// [output]
 struct OutputDefinition {
-  /// displacement, rotation, orientation, velocity, reaction, strain, stress, material, energy; unset: displacement.
+  /// displacement, rotation, orientation, velocity, reaction, strain, stress, material, energy, damage; unset:
+  /// displacement.
   std::vector<std::string> fields{"displacement"};
   std::optional<double> every;             ///< [s] simulated time between field samples; unset: the end only
   std::optional<double> history_every;     ///< [s] simulated time between rows of history.csv; unset: 200 rows
@@ -216,6 +220,8 @@ struct Definition {
 
   /// The calibration in force: the one set, else the default for the cell and sharing.
   material::Calibration calibration() const;
+  /// Whether some material can crack.
+  bool cracks() const;
 
   /// Equal input; where it stood (places, directory) counts nothing.
   bool operator==(const Definition& other) const;

@@ -5,6 +5,10 @@
 
 #include "koshi/model.h"
 
+namespace koshi::failure {
+class Cracking;
+}
+
 namespace koshi::dynamics {
 
 /// Steps displacements and rotations by central differences (N5, N6) with damping (N1, N27), loads and prescribed
@@ -13,7 +17,8 @@ class ExplicitSolver {
  public:
   /// `dt` [s] > 0; stability is the caller's concern (see mechanics::stable_step). Model and state must outlive the
   /// solver. A state at time 0 first takes the prescribed displacements of that time.
-  ExplicitSolver(const model::Model& model, model::State& state, double dt);
+  /// `cracking`: follows the cracks of a body that can crack; it too must outlive the solver.
+  ExplicitSolver(const model::Model& model, model::State& state, double dt, failure::Cracking* cracking = nullptr);
   ~ExplicitSolver();
 
   void step();        ///< one step of dt

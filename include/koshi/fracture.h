@@ -6,11 +6,15 @@
 
 namespace koshi::material {
 
+/// Whether a material cracks: cells that lose their springs by the energy a crack takes, or never.
+enum class FractureLaw { cohesive, none };
+
 /// How the tensile stress falls as a crack opens: straight to zero, or exponentially.
 enum class Softening { linear, exponential };
 
 /// Strength and toughness: a tensile cut-off, with a cohesion also Mohr and Coulomb's limit (theory, section 12).
 struct Fracture {
+  FractureLaw law = FractureLaw::cohesive;       ///< none: the numbers stay, but nothing cracks
   double tensile_strength = 0;                   ///< f_t [Pa], > 0
   double fracture_energy = 0;                    ///< G_f [J/m^2], > 0
   std::optional<double> cohesion;                ///< c [Pa], > 0; unset: cracks open in tension only

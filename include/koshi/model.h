@@ -79,19 +79,29 @@ double factor(const BoundaryDefinition& boundary, double t);
 /// libraries, which depends on the machine.
 double predicted_memory(const Definition& definition, int ranks);
 
+/// Components of State::crack.
+inline constexpr int crack_components = 13;
+
 /// What changes during a run. Component order: ux, uy, uz [m], rx, ry, rz [rad] (three components with least-squares).
 struct State {
   lattice::Field<double> displacement;  ///< [m], [rad]
   lattice::Field<double> velocity;      ///< at t - dt/2 in explicit runs
   /// Unit quaternions w, x, y, z of the nodes; no components unless a run asks for orientations.
   lattice::Field<double> orientation;
+  /// Of cells at their lowest corner: damage, largest equivalent strain, that at the onset, energy [J/m^3] at the
+  /// onset, what the crack takes in all and what it has taken over that, its normal and slip (3 each), energy that it
+  /// and its friction took [J]; no components unless a material can crack.
+  lattice::Field<double> crack;
+  /// In the same case, of nodes: forces of closed crack faces [N]; follows from the others.
+  lattice::Field<double> face_force;
+  /// In the same case, of nodes: energy that loads and supports gave, and that damping took [J].
+  lattice::Field<double> work;
   double time = 0;        ///< [s]
   std::int64_t step = 0;  ///< explicit steps so far
   double time_step = 0;   ///< [s], of the run that took them; 0: none yet
 
   /// At rest, undeformed, at time 0.
-  explicit State(const Model& model)
-      : displacement(model.layout(), model.components()), velocity(model.layout(), model.components()) {}
+  explicit State(const Model& model);
 };
 
 }  // namespace koshi::model

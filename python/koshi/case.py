@@ -71,6 +71,9 @@ class Material:
     """-1 < nu < 0.5"""
     density: Quantity
     """[kg/m^3] > 0"""
+    fracture: Mapping[str, Quantity] | None = None
+    """what it takes to crack: tensile_strength [Pa], fracture_energy [J/m^2], law, softening, cohesion [Pa], friction_angle
+    and residual_friction_angle [rad]; default: it never does"""
 
 
 @dataclass

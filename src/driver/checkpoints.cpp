@@ -30,6 +30,8 @@ constexpr std::array stop_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SI
 
 // Name of the step's length among the numbers of a checkpoint.
 constexpr const char* time_step_name = "time_step";
+// 1 among them: the checkpoint has the fields of cracks.
+constexpr const char* cracks_name = "cracks";
 
 // What must be equal for a run to go on: everything but the output and how long to run.
 std::string case_text(model::Definition definition) {
@@ -41,8 +43,13 @@ std::string case_text(model::Definition definition) {
 }
 
 std::vector<io::CheckpointField> extra_fields(model::State& state) {
-  if (state.orientation.components() == 0) return {};
-  return {{"orientation", &state.orientation}};
+  std::vector<io::CheckpointField> fields;
+  if (state.orientation.components() != 0) fields.push_back({"orientation", &state.orientation});
+  if (state.crack.components() != 0) {
+    fields.push_back({"crack", &state.crack});
+    fields.push_back({"work", &state.work});
+  }
+  return fields;
 }
 
 }  // namespace
@@ -128,6 +135,7 @@ void Checkpoints::write_to(const std::filesystem::path& directory, model::State&
   io::CheckpointInfo info;
   info.case_text = case_text_;
   if (state.time_step > 0) info.scalars[time_step_name] = state.time_step;
+  if (state.crack.components() != 0) info.scalars[cracks_name] = 1;
   const auto fields = extra_fields(state);
   io::write_checkpoint(directory, model_, state, info, fields);
 }
@@ -135,7 +143,16 @@ void Checkpoints::write_to(const std::filesystem::path& directory, model::State&
 void start_from(const std::filesystem::path& directory, const model::Model& model, model::State& state) {
   // Its own text is accepted: the case may differ, the lattice is still compared.
   const io::CheckpointInfo header = io::read_checkpoint_header(directory, model.communicator);
-  io::read_checkpoint(directory, model, header.case_text, state);
+  // Cracks stay; a body at rest so far, or an equilibrium, has none.
+  const bool cracked = header.scalars.contains(cracks_name);
+  if (cracked && state.crack.components() == 0)
+    throw InputError(model.definition.places.find("analysis.start_from"),
+                     fmt::format("{} holds a body that can crack, and no material of this case can; give them the "
+                                 "fracture they had",
+                                 directory.native()));
+  std::vector<io::CheckpointField> cracks;
+  if (cracked) cracks.push_back({"crack", &state.crack});
+  io::read_checkpoint(directory, model, header.case_text, state, cracks);
   state.velocity.zero();
   state.time = 0;
   state.step = 0;

@@ -82,6 +82,7 @@ void FieldSet::add(const std::string& name, const model::Model& model, model::St
   if (name == "stress")
     computed(on_cells(model, u, 6, [](const auto& s, int c) { return s.stress[static_cast<std::size_t>(c)]; }),
              tensor_names, true);
+  if (name == "damage") fields_.push_back({name, &state.crack, 0, 1, {}, true});
   if (name == "energy") computed(on_cells(model, u, 1, [](const auto& s, int) { return s.energy; }), {}, true);
 }
 

@@ -87,15 +87,19 @@ std::vector<std::string> history_columns(const model::Model& model) {
   for (const char* energy :
        {"elastic energy [J]", "kinetic energy [J]", "leapfrog energy [J]", "unbalanced-force ratio [1]"})
     columns.emplace_back(energy);
+  if (model.definition.cracks())
+    for (const char* energy : {"work of loads and supports [J]", "damping [J]", "cracks [J]"})
+      columns.emplace_back(energy);
   return columns;
 }
 
-std::vector<double> history_row(double time, const mechanics::Measurement& measurement) {
+std::vector<double> history_row(const model::Model& model, double time, const mechanics::Measurement& measurement) {
   std::vector<double> row{time};
   for (const mechanics::ProbeValue& value : measurement.probes) row.insert(row.end(), value.begin(), value.end());
   const mechanics::Balance& balance = measurement.balance;
   row.insert(row.end(),
              {balance.elastic_energy, balance.kinetic_energy, balance.leapfrog_energy, balance.unbalanced_ratio()});
+  if (model.definition.cracks()) row.insert(row.end(), {balance.given, balance.damped, balance.cracked});
   return row;
 }
 

@@ -12,7 +12,7 @@ namespace koshi::driver {
 
 /// Columns of history.csv: time, probes, energies, unbalanced-force ratio.
 std::vector<std::string> history_columns(const model::Model& model);
-std::vector<double> history_row(double time, const mechanics::Measurement& measurement);
+std::vector<double> history_row(const model::Model& model, double time, const mechanics::Measurement& measurement);
 
 /// Memory of a run, of all its ranks together [bytes].
 struct RunMemory {

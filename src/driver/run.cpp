@@ -60,7 +60,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
 
   Observer observer;
   observer.history = [&](const mechanics::Measurement& measurement, model::State& at) {
-    history->write(history_row(at.time, measurement));
+    history->write(history_row(model, at.time, measurement));
   };
   observer.fields = [&](model::State& at, double) {
     while_making("a sample of the fields", [&] {

@@ -77,6 +77,18 @@ Outcome Simulation::run(const Observer& observer, const std::vector<std::string>
   return outcome;
 }
 
+failure::Cracking* Simulation::cracking() {
+  if (!cracking_ && model_->definition.cracks()) cracking_ = std::make_unique<failure::Cracking>(*model_, state());
+  return cracking_.get();
+}
+
+// Balance and probes, with the energies of cracks.
+mechanics::Measurement Simulation::measure_at(double dt) {
+  mechanics::Measurement measurement = meter_->measure(state(), dt);
+  if (cracking() != nullptr) cracking()->complete(measurement.balance);
+  return measurement;
+}
+
 Outcome Simulation::run_static(const Observer& observer, const std::vector<std::string>& petsc_options) {
   statics::StaticOptions options;
   options.tolerance = model_->definition.analysis.tolerance;
@@ -194,8 +206,10 @@ Outcome Simulation::run_explicit(const Observer& observer) {
   const Schedule schedule(model_->definition, goes_on ? state_->time_step : choose_step(*outcome.stable), goes_on);
   outcome.time_step = state_->time_step = schedule.dt();
 
-  dynamics::ExplicitSolver solver(*model_, *state_, schedule.dt());
-  outcome.measurement = meter_->measure(*state_, schedule.dt());
+  // The state may have been changed since it was cracked: by a restart, by its owner.
+  if (cracking() != nullptr) cracking()->restore();
+  dynamics::ExplicitSolver solver(*model_, *state_, schedule.dt(), cracking());
+  outcome.measurement = measure_at(schedule.dt());
   if (state_->step == 0) {
     if (observer.history) observer.history(outcome.measurement, *state_);
     if (observer.fields && schedule.samples_fields()) observer.fields(*state_, schedule.dt());
@@ -207,7 +221,7 @@ Outcome Simulation::run_explicit(const Observer& observer) {
     const std::int64_t step = state_->step;
     const bool last = step == schedule.last_step();
     if (schedule.is_check(step) || schedule.is_history(step) || last) {
-      outcome.measurement = meter_->measure(*state_, schedule.dt());
+      outcome.measurement = measure_at(schedule.dt());
       check_divergence(outcome.measurement.balance, observer);
       outcome.converged = !quasi_static || schedule.at_rest(outcome.measurement.balance, state_->time);
     }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/memory.h"
+#include "failure/cracking.h"
 #include "koshi/dynamics.h"
 #include "koshi/model.h"
 #include "koshi/modes.h"
@@ -85,20 +86,25 @@ class Simulation {
   const ResidentMemory& memory_before() const { return memory_before_; }
 
  private:
+  mechanics::Measurement measure_at(double dt);
   Outcome run_static(const Observer& observer, const std::vector<std::string>& petsc_options);
   Outcome run_modes(const Observer& observer);
   Outcome run_explicit(const Observer& observer);
   double choose_step(const mechanics::StableStep& stable) const;
+  /// Cracks of the state as it is now; none where nothing can crack.
+  failure::Cracking* cracking();
   void check_support() const;
   void check_divergence(const mechanics::Balance& balance, const Observer& observer) const;
 
   ResidentMemory memory_before_;
-  // On the heap, since parts refer to each other. Of the model only factors of loads and boundaries ever change.
+  // On the heap, since parts refer to each other. Of the model only factors of loads, boundaries and cells
+  // ever change.
   std::unique_ptr<model::Model> model_;
   std::unique_ptr<mechanics::ForceKernel> kernel_;
   std::unique_ptr<mechanics::Meter> meter_;
   std::optional<std::vector<std::string>> warnings_;  ///< set once prepared
   std::unique_ptr<model::State> state_;
+  std::unique_ptr<failure::Cracking> cracking_;
   std::optional<mechanics::StableStep> stable_;        // once an explicit step was asked for
   std::unique_ptr<dynamics::ExplicitSolver> stepper_;  // of `step`; none during and after a run
   double lag_ = 0;                                     // step whose middle the state's velocities belong to [s]

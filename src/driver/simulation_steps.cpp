@@ -26,7 +26,11 @@ double Simulation::time_step() {
 }
 
 void Simulation::step(std::int64_t count, const std::function<void()>& breathe) {
-  if (!stepper_) stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, state(), time_step());
+  if (!stepper_) {
+    // The state may have been changed since it was cracked.
+    if (cracking() != nullptr) cracking()->restore();
+    stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, state(), time_step(), cracking());
+  }
   if (count > 0) lag_ = time_step();
   for (std::int64_t s = 0; s < count; ++s) {
     stepper_->step();
@@ -34,7 +38,7 @@ void Simulation::step(std::int64_t count, const std::function<void()>& breathe) 
   }
 }
 
-mechanics::Measurement Simulation::measure() { return meter_->measure(state(), lag_); }
+mechanics::Measurement Simulation::measure() { return measure_at(lag_); }
 
 void Simulation::set_load_factor(const std::string& name, double value) {
   model::History history{{0, value}};

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "failure/softening.h"
 #include "koshi/error.h"
 #include "mechanics/self_check.h"
 #include "model/choices.h"
@@ -120,6 +122,24 @@ void check_held_loads(const model::Model& model, std::vector<std::string>& warni
     }
 }
 
+// Cells so large that their elastic energy at the strength is more than a crack takes break at less (theory, 12).
+void check_spacing(const Definition& definition, std::vector<std::string>& warnings) {
+  const double d = definition.lattice.spacing;
+  const double widest = failure::band_width(d, {1 / std::sqrt(3.0), 1 / std::sqrt(3.0), 1 / std::sqrt(3.0)});
+  for (const model::MaterialDefinition& material : definition.materials) {
+    if (!material.cracks()) continue;
+    const double E = material.elastic.youngs_modulus, f_t = material.fracture->tensile_strength;
+    const double G_f = material.fracture->fracture_energy, limit = failure::width_limit(E, f_t, G_f);
+    if (widest < limit) continue;
+    warnings.push_back(fmt::format(
+        "the spacing of {:.4g} m is too coarse for material \"{}\": at its tensile strength a cell stores more energy "
+        "than a crack takes. It keeps its fracture energy of {:.4g} J/m^2, but cracks across an axis open at {:.3g} "
+        "Pa, oblique ones at as little as {:.3g} Pa, not at {:.4g} Pa; a spacing below {:.3g} m keeps both",
+        d, material.name, G_f, E * failure::threshold(E, f_t, G_f, d), E * failure::threshold(E, f_t, G_f, widest), f_t,
+        limit * d / widest));
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> warnings(const model::Model& model) {
@@ -128,6 +148,7 @@ std::vector<std::string> warnings(const model::Model& model) {
   check_platens(model.definition, warnings);
   check_held_loads(model, warnings);
   check_unused(model.definition, warnings);
+  check_spacing(model.definition, warnings);
   return warnings;
 }
 

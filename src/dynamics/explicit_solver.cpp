@@ -1,7 +1,10 @@
 #include <algorithm>
+#include <optional>
 
+#include "dynamics/energy_ledger.h"
 #include "dynamics/orientation.h"
 #include "dynamics/row_update.h"
+#include "failure/cracking.h"
 #include "koshi/dynamics.h"
 #include "lattice/halo.h"
 #include "mechanics/force_kernel.h"
@@ -42,7 +45,11 @@ struct ExplicitSolver::Implementation {
   lattice::Field<double> inverse_inertia;
   const double origin;  // time of step 0: times are origin + step dt, so that they do not gather rounding
 
-  Implementation(const model::Model& m, model::State& s, double step)
+  // Of a body that can crack.
+  failure::Cracking* const cracking;
+  std::optional<EnergyLedger> ledger;
+
+  Implementation(const model::Model& m, model::State& s, double step, failure::Cracking* cracks)
       : model(m),
         state(s),
         dt(step),
@@ -51,7 +58,9 @@ struct ExplicitSolver::Implementation {
         loads(m),
         motion_rows(m.layout(), m.motions, [](const model::PrescribedMotion& p) { return p.node; }),
         inverse_inertia(inverse(m.layout(), m.inertia)),
-        origin(s.time - static_cast<double>(s.step) * step) {
+        origin(s.time - static_cast<double>(s.step) * step),
+        cracking(cracks) {
+    if (cracking != nullptr) ledger.emplace(model, state, motion_rows, dt);
     if (state.step == 0 && state.time == 0) take_initial_displacements();
   }
 
@@ -65,7 +74,7 @@ struct ExplicitSolver::Implementation {
         state.displacement.component(motion.component)[motion.node] = motion.value * factor(motion, 0);
   }
 
-  // --- The seven phases of a step. Phases 3 to 6 act on a row of nodes as soon as phase 2 has its force, phase 7 as
+  // --- The phases of a step. Phases 3 to 6 act on a row of nodes as soon as phase 2 has its force, phase 7 as
   // soon as no other row needs its displacements any more, so that a row is in the cache from its first phase to its
   // last.
   void step() {
@@ -78,6 +87,7 @@ struct ExplicitSolver::Implementation {
     drift_borders();
     ++state.step;
     state.time = origin + static_cast<double>(state.step) * dt;
+    if (cracking != nullptr) crack();
   }
 
   // 1. Exchange the halo of displacements.
@@ -93,9 +103,12 @@ struct ExplicitSolver::Implementation {
     kernel.for_each_row(
         state.displacement, rows, [this](std::int64_t n) { fetch(n); },  // 2. internal force
         [&](std::int64_t j, std::int64_t k, double* const* force) {
+          if (cracking != nullptr) cracking->add_faces(j, k, force);
+          if (ledger) ledger->open(j, k, force);
           loads.add(j, k, force);      // 3. add loads
           damp_and_kick(j, k, force);  // 4. and 5.
           impose_motion(j, k);         // 6.
+          if (ledger) ledger->close(j, k, force);
         },
         [&](std::int64_t j, std::int64_t k) {
           if (!touches_border(j, k)) drift(j, k);  // 7.
@@ -149,6 +162,13 @@ struct ExplicitSolver::Implementation {
     }
   }
 
+  // 8. Crack cells by the displacements at the end of the step.
+  void crack() {
+    halo.exchange(state.displacement);
+    halo.exchange(state.velocity);
+    cracking->follow(dt);
+  }
+
   // --- What the exchange asks for: rows with ghosts around them come last, and rows that they need do not drift
   // before.
 
@@ -186,8 +206,8 @@ struct ExplicitSolver::Implementation {
   }
 };
 
-ExplicitSolver::ExplicitSolver(const model::Model& model, model::State& state, double dt)
-    : self_(new Implementation(model, state, dt)) {}
+ExplicitSolver::ExplicitSolver(const model::Model& model, model::State& state, double dt, failure::Cracking* cracking)
+    : self_(new Implementation(model, state, dt, cracking)) {}
 ExplicitSolver::~ExplicitSolver() = default;
 double ExplicitSolver::dt() const { return self_->dt; }
 void ExplicitSolver::step() { self_->step(); }

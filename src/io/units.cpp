@@ -18,7 +18,7 @@
 namespace koshi::io {
 namespace {
 
-constexpr std::array<DimensionWords, 11> all_words{{
+constexpr std::array<DimensionWords, 12> all_words{{
     {"a plain number", "", "0.18"},
     {"a length", "m", "0.2 cm"},
     {"a time", "s", "1e-7 s"},
@@ -30,15 +30,16 @@ constexpr std::array<DimensionWords, 11> all_words{{
     {"an angle", "rad", "10 deg"},
     {"an angular velocity", "rad/s", "10 deg/s"},
     {"a rate", "1/s", "100 1/s"},
+    {"an energy per area", "J/m^2", "100 J/m^2"},
 }};
 
 // Units people write for these dimensions; a misspelt one is looked for here.
 const std::vector<std::string>& common_units() {
-  static const std::vector<std::string> units{"m",   "mm",  "cm",   "km",     "um",     "inch",  "foot", "s",
-                                              "ms",  "us",  "min",  "hour",   "day",    "Pa",    "kPa",  "MPa",
-                                              "GPa", "psi", "bar",  "kg/m^3", "g/cm^3", "N",     "kN",   "MN",
-                                              "mN",  "kgf", "lbf",  "m/s^2",  "cm/s^2", "m/s",   "cm/s", "mm/s",
-                                              "deg", "rad", "mrad", "degree", "deg/s",  "rad/s", "1/s",  "Hz"};
+  static const std::vector<std::string> units{
+      "m",    "mm",   "cm",     "km",    "um",    "inch",  "foot",   "s",     "ms",     "us",     "min",
+      "hour", "day",  "Pa",     "kPa",   "MPa",   "GPa",   "psi",    "bar",   "kg/m^3", "g/cm^3", "N",
+      "kN",   "MN",   "mN",     "kgf",   "lbf",   "m/s^2", "cm/s^2", "m/s",   "cm/s",   "mm/s",   "deg",
+      "rad",  "mrad", "degree", "deg/s", "rad/s", "1/s",   "Hz",     "J/m^2", "N/m",    "N/mm"};
   return units;
 }
 

@@ -20,7 +20,8 @@ enum class Dimension {
   velocity,
   angle,
   angular_velocity,
-  rate
+  rate,
+  energy_per_area
 };
 
 struct DimensionWords {

@@ -10,35 +10,60 @@ namespace {
 
 constexpr std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
+// Corner a of a cell, from its lowest one.
+std::array<int, 3> corner_of(int a) { return {a & 1, a >> 1 & 1, a >> 2}; }
+
+// Gradient of the fitted field, du_i/dx_j = 1/(4d) sum_s s_j u_i(s).
+using Gradient = std::array<Vec3, 3>;
+
+void add_corner(int a, const Vec3& u, double d, Gradient& G) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) G[i][j] += (a >> j & 1 ? 1 : -1) * u[i] / (4 * d);
+}
+
+Tensor6 symmetric(const Gradient& G) {
+  Tensor6 strain;
+  for (int v = 0; v < 6; ++v) strain[v] = 0.5 * (G[pairs[v][0]][pairs[v][1]] + G[pairs[v][1]][pairs[v][0]]);
+  return strain;
+}
+
 }  // namespace
 
-CellState cell_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
-  const lattice::Layout& layout = body.layout;
-  const double d = body.grid.d;
-  const bool rotational = body.components() == 6;
-  std::array<std::int64_t, 8> node;
-  std::array<Vec3, 8> displacement, rotation{};
+CellMotion cell_motion(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
+  CellMotion motion;
   for (int a = 0; a < 8; ++a) {
-    node[a] = cell + layout.offset({a & 1, a >> 1 & 1, a >> 2});
+    const std::int64_t node = cell + body.layout.offset(corner_of(a));
     for (int c = 0; c < 3; ++c) {
-      displacement[a][c] = u.component(c)[node[a]];
-      if (rotational) rotation[a][c] = u.component(3 + c)[node[a]];
+      motion.displacement[a][c] = u.component(c)[node];
+      if (body.components() == 6) motion.rotation[a][c] = u.component(3 + c)[node];
     }
   }
+  return motion;
+}
 
-  // Gradient of the fitted field, du_i/dx_j = 1/(4d) sum_s s_j u_i(s).
-  double G[3][3] = {};
-  for (int a = 0; a < 8; ++a)
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) G[i][j] += (a >> j & 1 ? 1 : -1) * displacement[a][i] / (4 * d);
+Tensor6 cell_strain(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
+  Gradient G{};
+  for (int a = 0; a < 8; ++a) {
+    const std::int64_t node = cell + body.layout.offset(corner_of(a));
+    add_corner(a, {u.component(0)[node], u.component(1)[node], u.component(2)[node]}, body.grid.d, G);
+  }
+  return symmetric(G);
+}
+
+CellState cell_state(const model::SpringLattice& body, const CellMotion& motion, std::int64_t cell) {
+  const double d = body.grid.d;
+  const bool rotational = body.components() == 6;
+  const auto& [displacement, rotation] = motion;
+  Gradient G{};
+  for (int a = 0; a < 8; ++a) add_corner(a, displacement[a], d, G);
   CellState state;
-  for (int v = 0; v < 6; ++v) state.strain[v] = 0.5 * (G[pairs[v][0]][pairs[v][1]] + G[pairs[v][1]][pairs[v][0]]);
+  state.strain = symmetric(G);
   state.rotation = {0.5 * (G[2][1] - G[1][2]), 0.5 * (G[0][2] - G[2][0]), 0.5 * (G[1][0] - G[0][1])};
 
   // Virial of the cell's bonds.
   const double volume = d * d * d;
   for (const CellBond& bond : cell_bonds) {
-    const auto [kn, kt] = cell_part(body, bond.slot, node[bond.a], cell);
+    const auto [kn, kt] = cell_part(body, bond.slot, cell + body.layout.offset(corner_of(bond.a)), cell);
     const auto& s = lattice::slots[bond.slot].s;
     const Vec3 D = -d * Vec3{static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])};
     const Vec3 w = rotational ? 0.5 * (rotation[bond.a] + rotation[bond.b]) : state.rotation;
@@ -57,6 +82,10 @@ CellState cell_state(const model::SpringLattice& body, const lattice::Field<doub
     state.energy += 0.5 * pressure * state.strain[v];
   }
   return state;
+}
+
+CellState cell_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
+  return cell_state(body, cell_motion(body, u, cell), cell);
 }
 
 CellState node_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t node) {

@@ -17,6 +17,18 @@ struct CellState {
   double energy = 0;  ///< elastic energy over the cell's volume [J/m^3]
 };
 
+/// Displacements [m] (or velocities) of the corners of a cell, and their rotations with rotational kinematics.
+struct CellMotion {
+  std::array<Vec3, 8> displacement{}, rotation{};
+};
+CellMotion cell_motion(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell);
+
+/// Only the strain of cell_state().
+Tensor6 cell_strain(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell);
+
+/// Of a cell in any motion.
+CellState cell_state(const model::SpringLattice& body, const CellMotion& motion, std::int64_t cell);
+
 /// Of the cell with lowest corner `cell`, which must touch an owned node and be solid; ghosts of u up to date.
 CellState cell_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell);
 

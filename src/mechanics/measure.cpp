@@ -18,6 +18,20 @@ Meter::Meter(const model::Model& model, ForceKernel& kernel)
       loads_(model),
       motion_rows_(model.layout(), model.motions, [](const model::PrescribedMotion& m) { return m.node; }) {}
 
+namespace {
+
+// Forces on a row of nodes, component by component.
+struct ForceRow {
+  double* const* springs;
+  double* const* loads;
+  std::array<const double*, 3> faces{};  // of closed cracks; null: none
+
+  double of_faces(int c, std::int64_t i) const { return c < 3 && faces[0] != nullptr ? faces[c][i] : 0; }
+  double total(int c, std::int64_t i) const { return springs[c][i] + loads[c][i] + of_faces(c, i); }
+};
+
+}  // namespace
+
 template <class F>
 void Meter::for_each_row(model::State& state, F&& f) {
   const lattice::Layout& layout = model_.layout();
@@ -30,7 +44,10 @@ void Meter::for_each_row(model::State& state, F&& f) {
   kernel_.for_each_row(state.displacement, [&](std::int64_t j, std::int64_t k, double* const* internal) {
     for (auto& e : external) std::fill(e.begin(), e.end(), 0);
     loads_.add(j, k, external_row.data());
-    f(j, k, internal, external_row.data());
+    ForceRow row{internal, external_row.data()};
+    if (state.face_force.components() != 0)
+      for (int c = 0; c < 3; ++c) row.faces[c] = state.face_force.component(c) + layout.index(0, j, k);
+    f(j, k, row);
   });
 }
 
@@ -74,7 +91,7 @@ struct Sums {
 // Adds one row to the sums. A node's terms are added up in a fixed order, nodes without rounding, so that the result
 // does not depend on the partition.
 void add_row(const model::Model& model, const model::State& state, double dt, std::int64_t j, std::int64_t k,
-             double* const* internal, double* const* external, const std::vector<std::uint8_t>& mask, Sums& sums) {
+             const ForceRow& forces, const std::vector<std::uint8_t>& mask, Sums& sums) {
   const int components = model.components();
   const std::int64_t n = model.layout().index(0, j, k);
   const double d = model.lattice.grid.d;
@@ -82,18 +99,18 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
     if (model.inertia.component(0)[n + i] == 0) continue;
     double elastic = 0, kinetic = 0, leapfrog = 0, residual = 0, reference = 0;
     for (int c = 0; c < components; ++c) {
-      const double force = internal[c][i] + external[c][i];
+      const double force = forces.total(c, i);
       const double inertia = model.inertia.component(c < 3 ? 0 : 1)[n + i];
       const double lever = c < 3 ? 1 : d;
       const bool prescribed = mask[static_cast<std::size_t>(i)] >> c & 1;
       const double gain = prescribed ? 0 : 0.5 * dt * force / inertia;
       const double v = state.velocity.component(c)[n + i] + gain;
-      elastic -= 0.5 * state.displacement.component(c)[n + i] * internal[c][i];
+      elastic -= 0.5 * state.displacement.component(c)[n + i] * forces.springs[c][i];
       kinetic += 0.5 * inertia * v * v;
       leapfrog += 0.5 * inertia * (v - gain) * (v + gain);
       const double square = force * force / (lever * lever);
       (prescribed ? reference : residual) += square;
-      reference += external[c][i] * external[c][i] / (lever * lever);
+      reference += forces.loads[c][i] * forces.loads[c][i] / (lever * lever);
     }
     sums.elastic += elastic;
     sums.kinetic += kinetic;
@@ -108,19 +125,19 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
 Balance Meter::balance(model::State& state, double dt) {
   Sums sums;
   RowMask mask(model_, motion_rows_);
-  for_each_row(state, [&](auto j, auto k, double* const* internal, double* const* external) {
-    add_row(model_, state, dt, j, k, internal, external, mask.of(j, k), sums);
+  for_each_row(state, [&](auto j, auto k, const ForceRow& forces) {
+    add_row(model_, state, dt, j, k, forces, mask.of(j, k), sums);
   });
   return sums.total(model_.communicator);
 }
 
 lattice::Field<double> Meter::reactions(model::State& state) {
   lattice::Field<double> reaction(model_.layout(), model_.components());
-  for_each_row(state, [&](auto j, auto k, double* const* internal, double* const* external) {
+  for_each_row(state, [&](auto j, auto k, const ForceRow& forces) {
     const std::int64_t row = j + model_.layout().owned()[1] * k, first = model_.layout().index(0, j, k);
     for (std::size_t m = motion_rows_.begin(row); m < motion_rows_.end(row); ++m) {
       const auto& [node, component, is_velocity, value, boundary] = model_.motions[m];
-      reaction.component(component)[node] = -(internal[component][node - first] + external[component][node - first]);
+      reaction.component(component)[node] = -forces.total(component, node - first);
     }
   });
   return reaction;
@@ -135,16 +152,16 @@ Measurement Meter::measure(model::State& state, double dt) {
 
   Sums sums;
   RowMask mask(model_, motion_rows_);
-  for_each_row(state, [&](auto j, auto k, double* const* internal, double* const* external) {
+  for_each_row(state, [&](auto j, auto k, const ForceRow& forces) {
     const auto& prescribed = mask.of(j, k);
-    add_row(model_, state, dt, j, k, internal, external, prescribed, sums);
+    add_row(model_, state, dt, j, k, forces, prescribed, sums);
     const std::int64_t row = j + model_.layout().owned()[1] * k, first = model_.layout().index(0, j, k);
     for (std::size_t m = motion_rows_.begin(row); m < motion_rows_.end(row); ++m) {
       const model::PrescribedMotion& motion = model_.motions[m];
       const auto at = wanted.find(motion.node);
       if (at == wanted.end()) continue;
       const int c = motion.component;
-      at->second[static_cast<std::size_t>(c)] = -(internal[c][motion.node - first] + external[c][motion.node - first]);
+      at->second[static_cast<std::size_t>(c)] = -forces.total(c, motion.node - first);
     }
   });
 

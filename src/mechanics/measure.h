@@ -17,6 +17,10 @@ struct Balance {
   double leapfrog_energy = 0;
   double residual = 0;   ///< [N], root of the sum of squares of forces (and moments/d) on free components
   double reference = 0;  ///< [N], the same of loads and reactions
+  // Where cells can crack, since the start:
+  double given = 0;    ///< [J], work of loads and supports
+  double damped = 0;   ///< [J], taken by damping
+  double cracked = 0;  ///< [J], taken by cracks and the friction of their faces
 
   /// Unbalanced-force ratio, residual / reference; 0 for a body without any force.
   double unbalanced_ratio() const { return residual == 0 ? 0 : reference > 0 ? residual / reference : 1; }
@@ -41,7 +45,7 @@ class Meter {
   lattice::Field<double> reactions(model::State& state);
 
  private:
-  /// Calls f(j, k, internal, total) for every row: internal forces and their sum with the loads.
+  /// Calls f(j, k, forces) for every row.
   template <class F>
   void for_each_row(model::State& state, F&& f);
   ProbeValue probe_value(const model::Probe& probe, const model::State& state,

@@ -58,6 +58,9 @@ void check_run(const Checker& check) {
     if (std::find(known.begin(), known.end(), output.fields[i]) == known.end())
       check.fail(fmt::format("output.fields[{}]", i),
                  fmt::format("there is no field \"{}\"; {}", output.fields[i], suggestion(output.fields[i], known)));
+    else if (output.fields[i] == "damage" && !check.definition.cracks())
+      check.fail(fmt::format("output.fields[{}]", i),
+                 "damage belongs to materials that crack, and there is none; give one a fracture, or leave damage out");
   check.within(ranges::time, "output.every", output.every);
   check.within(ranges::time, "output.history_every", output.history_every);
   check.within(ranges::time, "output.checkpoint_every", output.checkpoint_every);

@@ -43,6 +43,14 @@ inline constexpr auto choices<material::Kinematics> = std::to_array<Choice<mater
     {{"rotational", material::Kinematics::rotational}, {"least-squares", material::Kinematics::least_squares}});
 
 template <>
+inline constexpr auto choices<material::FractureLaw> = std::to_array<Choice<material::FractureLaw>>(
+    {{"cohesive", material::FractureLaw::cohesive}, {"none", material::FractureLaw::none}});
+
+template <>
+inline constexpr auto choices<material::Softening> = std::to_array<Choice<material::Softening>>(
+    {{"exponential", material::Softening::exponential}, {"linear", material::Softening::linear}});
+
+template <>
 inline constexpr auto choices<RegionDefinition::Shape> = std::to_array<Choice<RegionDefinition::Shape>>({
     {"box", RegionDefinition::Shape::box},
     {"sphere", RegionDefinition::Shape::sphere},
@@ -120,7 +128,8 @@ std::vector<std::string> choice_names() {
 inline constexpr std::array<std::string_view, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
 
 /// Fields that OutputDefinition::fields may list.
-inline constexpr std::array<std::string_view, 9> field_names{
-    "displacement", "rotation", "orientation", "velocity", "reaction", "strain", "stress", "material", "energy"};
+inline constexpr std::array<std::string_view, 10> field_names{"displacement", "rotation", "orientation", "velocity",
+                                                              "reaction",     "strain",   "stress",      "material",
+                                                              "energy",       "damage"};
 
 }  // namespace koshi::model

@@ -1,5 +1,6 @@
 #include "koshi/definition.h"
 
+#include <algorithm>
 #include <tuple>
 
 namespace koshi::model {
@@ -20,6 +21,10 @@ material::Calibration Definition::calibration() const {
   if (lattice.calibration) return *lattice.calibration;
   if (lattice.springs == material::Sharing::plain) return Calibration::paper;
   return lattice.cell == lattice::CellType::cube_iii ? Calibration::bending_exact : Calibration::isotropic;
+}
+
+bool Definition::cracks() const {
+  return std::any_of(materials.begin(), materials.end(), [](const MaterialDefinition& m) { return m.cracks(); });
 }
 
 bool Definition::operator==(const Definition& other) const {

@@ -111,4 +111,12 @@ Model make_model(const Definition& definition, const Communicator& communicator)
   return model;
 }
 
+State::State(const Model& model)
+    : displacement(model.layout(), model.components()), velocity(model.layout(), model.components()) {
+  if (!model.definition.cracks()) return;
+  crack = lattice::Field<double>(model.layout(), crack_components);
+  face_force = lattice::Field<double>(model.layout(), 3);
+  work = lattice::Field<double>(model.layout(), 2);
+}
+
 }  // namespace koshi::model

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <string>
 #include <string_view>
 
@@ -56,6 +57,13 @@ inline constexpr Range poissons_ratio{.least = -1,
                                       .open_above = true,
                                       .reason = "else the shear or the bulk modulus is not positive and finite"};
 inline constexpr Range density{.unit = "kg/m^3", .least = 1e-9, .most = 1e18};
+inline constexpr Range strength{.unit = "Pa", .least = 1e-9, .most = 1e18};
+inline constexpr Range fracture_energy{.unit = "J/m^2", .least = 1e-15, .most = 1e18};
+inline constexpr Range friction_angle{.unit = "rad",
+                                      .least = 0,
+                                      .most = std::numbers::pi / 2,
+                                      .open_above = true,
+                                      .reason = "an angle below 90 degrees such as \"40 deg\""};
 
 // Loads and motions.
 inline constexpr Range force = symmetric("N", 1e30, 1e-30);

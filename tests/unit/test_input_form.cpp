@@ -309,7 +309,7 @@ quantity = "force"
 )",
        R"(34:12: error: unknown quantity "force"; allowed: "displacement", "rotation", "velocity", "reaction", "moment", "stress", "strain")"},
       {R"(every = "1 s")", R"(fields = ["displacment"])",
-       R"(36:11: error: unknown entry of fields "displacment"; did you mean "displacement"? allowed: "displacement", "rotation", "orientation", "velocity", "reaction", "strain", "stress", "material", "energy")"},
+       R"(36:11: error: unknown entry of fields "displacment"; did you mean "displacement"? allowed: "displacement", "rotation", "orientation", "velocity", "reaction", "strain", "stress", "material", "energy", "damage")"},
       {R"(kind = "local")", R"(kind = "rayleigh")",
        R"(31:20: error: unknown kind "rayleigh"; allowed: "local", "viscous", "none")"},
   };

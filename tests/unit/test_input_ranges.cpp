@@ -53,6 +53,11 @@ const std::map<std::string, std::string>& places() {
       {"material.youngs_modulus", "material.soft.youngs_modulus"},
       {"material.poissons_ratio", "material.soft.poissons_ratio"},
       {"material.density", "material.soft.density"},
+      {"material.fracture.tensile_strength", "material.soft.fracture.tensile_strength"},
+      {"material.fracture.fracture_energy", "material.soft.fracture.fracture_energy"},
+      {"material.fracture.cohesion", "material.soft.fracture.cohesion"},
+      {"material.fracture.friction_angle", "material.soft.fracture.friction_angle"},
+      {"material.fracture.residual_friction_angle", "material.soft.fracture.residual_friction_angle"},
       {"region.min", "region.0.min.0"},
       {"region.max", "region.0.max.2"},
       {"region.center", "region.1.center.1"},
@@ -124,6 +129,8 @@ std::string message_of(const std::string& name, const std::string& number) {
                                   : fmt::format("{{ min = [0, 0, 0], max = [1, 1, {}] }}", number);
   std::vector<std::string> overrides;
   if (name == "analysis.damping.rate") overrides.emplace_back("analysis.damping.kind=viscous");
+  if (name.starts_with("material.fracture."))
+    overrides.emplace_back("material.soft.fracture={tensile_strength=1, fracture_energy=1, cohesion=10}");
   if (name == "analysis.near") overrides.emplace_back("analysis={type='modes'}");
   if (name == "probe.center") overrides.emplace_back("probe.a point.quantity=moment");
   overrides.push_back(path + "=" + value);
@@ -178,8 +185,8 @@ TEST(Ranges, EveryNumberIsKeptToThem) {
     EXPECT_THAT(message_of(name, "\"1e400\""), HasSubstr("is out of the range of numbers")) << name;
     ++count;
   }
-  EXPECT_EQ(count, 61);
-  EXPECT_EQ(places().size(), 61u);
+  EXPECT_EQ(count, 66);
+  EXPECT_EQ(places().size(), 66u);
 }
 
 // The unit of a range is the one in which the reader gives its values.
@@ -202,8 +209,17 @@ TEST(Ranges, HaveTheUnitOfTheirKey) {
   EXPECT_EQ(check_units<LatticeDefinition>() + check_units<BodyDefinition>() + check_units<MaterialDefinition>() +
                 check_units<RegionDefinition>() + check_units<BoundaryDefinition>() + check_units<LoadDefinition>() +
                 check_units<AnalysisDefinition>() + check_units<DampingDefinition>() + check_units<ProbeDefinition>() +
-                check_units<OutputDefinition>(),
-            1 + 2 + 3 + 9 + 7 + 6 + 6 + 2 + 3 + 4);
+                check_units<OutputDefinition>() + check_units<material::Fracture>(),
+            1 + 2 + 3 + 5 + 9 + 7 + 6 + 6 + 2 + 3 + 4);
+}
+
+// A fracture with nothing wrong but what it is given.
+material::Fracture& fracture_of(model::Definition& definition) {
+  material::Fracture& fracture = definition.materials[0].fracture.emplace();
+  fracture.law = material::FractureLaw::none;
+  fracture.tensile_strength = fracture.fracture_energy = 1;
+  fracture.cohesion = 10;
+  return fracture;
 }
 
 // A program that fills the structs itself meets the same ranges.
@@ -216,6 +232,11 @@ TEST(Ranges, HoldForDefinitionsOfAProgram) {
       [](D& d) -> double& { return d.materials[0].elastic.youngs_modulus; },
       [](D& d) -> double& { return d.materials[0].elastic.poissons_ratio; },
       [](D& d) -> double& { return d.materials[0].elastic.density; },
+      [](D& d) -> double& { return fracture_of(d).tensile_strength; },
+      [](D& d) -> double& { return fracture_of(d).fracture_energy; },
+      [](D& d) -> double& { return fracture_of(d).cohesion.emplace(); },
+      [](D& d) -> double& { return fracture_of(d).friction_angle; },
+      [](D& d) -> double& { return fracture_of(d).residual_friction_angle; },
       [](D& d) -> double& { return d.regions[0].min[0]; },
       [](D& d) -> double& { return d.regions[0].max[1]; },
       [](D& d) -> double& { return d.regions[1].center[2]; },
@@ -263,7 +284,7 @@ TEST(Ranges, HoldForDefinitionsOfAProgram) {
       EXPECT_THROW(model::check(wrong), InputError) << "member " << m << " = " << value;
       ++count;
     }
-  EXPECT_EQ(count, 42 * 5);
+  EXPECT_EQ(count, 47 * 5);
 }
 
 }  // namespace

@@ -31,6 +31,8 @@ std::map<std::string, std::set<std::string>> schema_keys() {
     if (table.contains("properties")) result[name] = keys(table);
     if (name == "material") result[name] = keys(table.at("additionalProperties"));
   }
+  result["fracture"] =
+      keys(schema.at("properties").at("material").at("additionalProperties").at("properties").at("fracture"));
   result["damping"] = keys(schema.at("properties").at("analysis").at("properties").at("damping"));
   return result;
 }
@@ -57,6 +59,7 @@ TEST(Schema, ListsTheKeysOfTheReader) {
       {"lattice", "lattice."},
       {"body", "body."},
       {"material", "material.rock."},
+      {"fracture", "material.rock.fracture."},
       {"region", "region.0."},
       {"boundary", "boundary.top."},
       {"load", "load.push."},
@@ -71,7 +74,7 @@ TEST(Schema, ListsTheKeysOfTheReader) {
     EXPECT_EQ(schema.at(table), known_keys(path)) << table;
     count += schema.at(table).size();
   }
-  EXPECT_EQ(count, 10u + 7 + 7 + 3 + 12 + 11 + 10 + 11 + 3 + 7 + 6);
+  EXPECT_EQ(count, 10u + 7 + 7 + 4 + 7 + 12 + 11 + 10 + 11 + 3 + 7 + 6);
 }
 
 TEST(Schema, TellsTypeDefaultAndMeaning) {
@@ -99,6 +102,10 @@ TEST(Schema, TellsTypeDefaultAndMeaning) {
             "Damping force over mass times velocity. Only for kind \"viscous\".");
   EXPECT_EQ(analysis.at("damping").at("properties").at("rate").at("requiredWhereItApplies"), true);
   EXPECT_EQ(schema.at("properties").at("output").at("properties").at("fields").at("default"), Json({"displacement"}));
+  const Json& fracture =
+      schema.at("properties").at("material").at("additionalProperties").at("properties").at("fracture");
+  EXPECT_EQ(fracture.at("required"), Json({"tensile_strength", "fracture_energy"}));
+  EXPECT_EQ(fracture.at("properties").at("fracture_energy").at("unit"), "J/m^2");
   // Every key is described by one sentence.
   int described = 0;
   for (const auto& [name, table] : schema.at("properties").items()) {
@@ -131,12 +138,12 @@ int read_examples() {
 
 TEST(Schema, ExamplesAreRight) {
   using namespace model;
-  const int count = read_examples<Definition>() + read_examples<LatticeDefinition>() + read_examples<BodyDefinition>() +
-                    read_examples<MaterialDefinition>() + read_examples<RegionDefinition>() +
-                    read_examples<BoundaryDefinition>() + read_examples<LoadDefinition>() +
-                    read_examples<AnalysisDefinition>() + read_examples<DampingDefinition>() +
-                    read_examples<ProbeDefinition>() + read_examples<OutputDefinition>();
-  EXPECT_EQ(count, 1 + 3 + 7 + 3 + 11 + 10 + 8 + 7 + 1 + 4 + 5);
+  const int count =
+      read_examples<Definition>() + read_examples<LatticeDefinition>() + read_examples<BodyDefinition>() +
+      read_examples<MaterialDefinition>() + read_examples<RegionDefinition>() + read_examples<BoundaryDefinition>() +
+      read_examples<LoadDefinition>() + read_examples<AnalysisDefinition>() + read_examples<DampingDefinition>() +
+      read_examples<ProbeDefinition>() + read_examples<OutputDefinition>() + read_examples<material::Fracture>();
+  EXPECT_EQ(count, 1 + 3 + 7 + 4 + 5 + 11 + 10 + 8 + 7 + 1 + 4 + 5);
 }
 
 // A key without a list of words, a switch or a nested table shows an example.
@@ -153,7 +160,7 @@ TEST(Schema, EveryValueHasAnExample) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 3 + 7 + 3 + 11 + 10 + 9 + 8 + 3 + 5);
+  EXPECT_EQ(count, 3 + 7 + 4 + 11 + 10 + 9 + 8 + 3 + 5);
 }
 
 // Of some keys exactly one must be given: the schema says so, and the check refuses two of them, and none.

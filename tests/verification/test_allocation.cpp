@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "failure/cracking.h"
 #include "koshi/dynamics.h"
 #include "support/cases.h"
 
@@ -80,6 +81,35 @@ TEST_P(Allocation, NoneInAStep) {
   for (int step = 0; step < 100; ++step) solver.step();
   EXPECT_EQ(allocations, before);
   EXPECT_EQ(state.step, 101);
+}
+
+// Nor do cracks, neither the cells that crack in a step nor those that are closed and slide.
+TEST(CrackingAllocation, NoneInAStep) {
+  model::Definition definition = busy_block(material::Kinematics::rotational, material::Sharing::shared);
+  material::Fracture& fracture = definition.materials[0].fracture.emplace();
+  fracture.tensile_strength = 1e5;
+  fracture.fracture_energy = 1;
+  fracture.cohesion = 2e5;
+  fracture.residual_friction_angle = 0.5;
+  // Pulled by 1 mm and back: strains of some 1e-3, beyond 1e5 Pa / 1112 MPa = 9e-5.
+  definition.boundaries[0].ramp = 0;
+  definition.boundaries[0].history = {{0, 0}, {1e-5, 0}, {5e-4, -1}, {1.5e-3, 1}};
+  model::Model model = model::make_model(definition, Communicator::world());
+  model::State state(model);
+  failure::Cracking cracking(model, state);
+  dynamics::ExplicitSolver solver(model, state, 1e-5, &cracking);
+  solver.step();
+  const auto cracked = [&] {
+    std::int64_t count = 0;
+    lattice::for_each_owned(model.layout(),
+                            [&](auto, auto, auto, auto n) { count += state.crack.component(0)[n] > 0; });
+    return count;
+  };
+  EXPECT_EQ(cracked(), 0);
+  const std::int64_t before = allocations;
+  for (int step = 0; step < 140; ++step) solver.step();
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(cracked(), 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Allocation,

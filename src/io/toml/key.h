@@ -89,6 +89,7 @@ const std::vector<Key<model::Definition>>& keys_of(Tag<model::Definition>);
 const std::vector<Key<model::LatticeDefinition>>& keys_of(Tag<model::LatticeDefinition>);
 const std::vector<Key<model::BodyDefinition>>& keys_of(Tag<model::BodyDefinition>);
 const std::vector<Key<model::MaterialDefinition>>& keys_of(Tag<model::MaterialDefinition>);
+const std::vector<Key<material::Fracture>>& keys_of(Tag<material::Fracture>);
 const std::vector<Key<model::RegionDefinition>>& keys_of(Tag<model::RegionDefinition>);
 const std::vector<Key<model::BoundaryDefinition>>& keys_of(Tag<model::BoundaryDefinition>);
 const std::vector<Key<model::LoadDefinition>>& keys_of(Tag<model::LoadDefinition>);

@@ -103,6 +103,32 @@ const std::vector<Key<MaterialDefinition>>& keys_of(Tag<MaterialDefinition>) {
       key<D>(
           "density", [](auto& m) -> auto& { return m.elastic.density; }, "Mass per volume.",
           {.dimension = Dimension::density, .required = true, .range = ranges::density, .example = R"("2000 kg/m^3")"}),
+      key<D>("fracture", &D::fracture, "What it takes to crack the material; unset: it never does.",
+             {.title = "fracture", .example = R"({tensile_strength = "3 MPa", fracture_energy = "100 J/m^2"})"}),
+  };
+  return keys;
+}
+
+const std::vector<Key<material::Fracture>>& keys_of(Tag<material::Fracture>) {
+  using D = material::Fracture;
+  const auto shears = [](const D& fracture) { return fracture.cohesion.has_value(); };
+  static const std::vector<Key<D>> keys{
+      key<D>("law", &D::law, "Cells that crack by strength and energy, or \"none\": the material stays whole."),
+      key<D>("tensile_strength", &D::tensile_strength, "Tension at which a crack starts.",
+             {.dimension = Dimension::pressure, .required = true, .range = ranges::strength, .example = R"("3 MPa")"}),
+      key<D>("fracture_energy", &D::fracture_energy, "Energy that an area of crack takes.",
+             {.dimension = Dimension::energy_per_area,
+              .required = true,
+              .range = ranges::fracture_energy,
+              .example = R"("100 J/m^2")"}),
+      key<D>("softening", &D::softening, "How the stress falls as the crack opens: exponentially, or on a line."),
+      key<D>("cohesion", &D::cohesion, "Shear strength without pressure; unset: the material cracks in tension only.",
+             {.dimension = Dimension::pressure, .range = ranges::strength, .example = R"("8 MPa")"}),
+      key<D>("friction_angle", &D::friction_angle, "Growth of the shear strength with the pressure.",
+             {.dimension = Dimension::angle, .range = ranges::friction_angle, .example = R"("40 deg")"})
+          .only_for("a cohesion", {"cohesion"}, shears),
+      key<D>("residual_friction_angle", &D::residual_friction_angle, "Friction of closed crack faces on each other.",
+             {.dimension = Dimension::angle, .range = ranges::friction_angle, .example = R"("30 deg")"}),
   };
   return keys;
 }

@@ -1,0 +1,175 @@
+#include "failure/cracking.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "lattice/halo.h"
+
+namespace koshi::failure {
+namespace {
+
+// A cell is looked at a little below its limit, so that how the first look was rounded does not matter.
+constexpr double margin = 1 - 1e-5;
+
+// Rows of cells that touch an owned node, (-1, -1) first.
+std::size_t cell_row(const lattice::Layout& layout, std::int64_t j, std::int64_t k) {
+  return static_cast<std::size_t>((j + 1) + (layout.owned()[1] + 1) * (k + 1));
+}
+
+}  // namespace
+
+Cracking::Cracking(model::Model& model, model::State& state)
+    : model_(model), state_(state), strain_rows_(strain_rows()), limit_(model.layout(), 1) {
+  const lattice::Layout& layout = model.layout();
+  if (model.lattice.factor.components() == 0) model::make_factors(model.lattice, [](const Int3&) { return 1.0F; });
+  whole_ = model.lattice.factor;
+  laws_.resize(1);
+  bounds_.resize(1);
+  for (const model::MaterialDefinition& material : model.definition.materials) {
+    laws_.emplace_back();
+    bounds_.emplace_back();
+    if (!material.cracks()) continue;
+    laws_.back().emplace(material.elastic, *material.fracture, model.lattice.grid.d);
+    bounds_.back() = laws_.back()->bound();
+  }
+
+  const auto cells = static_cast<std::size_t>(layout.owned()[0] + 1);
+  mean_.resize(cells);
+  radius_.resize(cells);
+  breakable_.resize(cell_row(layout, layout.owned()[1], layout.owned()[2]), 0);
+  touched_.resize(static_cast<std::size_t>(layout.owned()[1] * layout.owned()[2]), 0);
+  std::size_t breakable = 0;
+  lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto j, auto k, auto n) {
+    if (!laws_[model_.lattice.cell.component(0)[n]]) return;
+    breakable_[cell_row(layout, j, k)] = 1;
+    ++breakable;
+  });
+  cracked_.reserve(breakable);
+  restore();
+}
+
+void Cracking::restore() {
+  const lattice::Layout& layout = model_.layout();
+  model_.lattice.halo->exchange(state_.crack);
+  model_.lattice.halo->exchange(state_.displacement);
+  clear_faces();
+  cracked_.clear();
+  lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto, auto, auto n) {
+    limit_.component(0)[n] = std::numeric_limits<float>::infinity();
+    // Cells without springs have none to lose.
+    if (!laws_[model_.lattice.cell.component(0)[n]] || whole_.component(0)[n] == 0) return;
+    const Crack crack = load(n);
+    set_factor(n, crack);
+    if (crack.kappa == 0) return;
+    cracked_.push_back(n);
+    note(n);
+  });
+  close_faces(false);
+}
+
+Crack Cracking::load(std::int64_t n) const {
+  const auto part = [&](int c) { return state_.crack.component(c)[n]; };
+  Crack crack;
+  crack.damage = part(damage);
+  crack.kappa = part(kappa);
+  crack.onset = part(onset);
+  crack.limit = part(limit);
+  crack.ratio = part(ratio);
+  crack.taken = part(taken);
+  crack.normal = {part(normal), part(normal + 1), part(normal + 2)};
+  crack.slip = {part(slip), part(slip + 1), part(slip + 2)};
+  return crack;
+}
+
+void Cracking::store(std::int64_t n, const Crack& crack) {
+  state_.crack.component(damage)[n] = crack.damage;
+  state_.crack.component(kappa)[n] = crack.kappa;
+  state_.crack.component(onset)[n] = crack.onset;
+  state_.crack.component(limit)[n] = crack.limit;
+  state_.crack.component(ratio)[n] = crack.ratio;
+  state_.crack.component(taken)[n] = crack.taken;
+  for (int a = 0; a < 3; ++a) {
+    state_.crack.component(normal + a)[n] = crack.normal[static_cast<std::size_t>(a)];
+    state_.crack.component(slip + a)[n] = crack.slip[static_cast<std::size_t>(a)];
+  }
+}
+
+float Cracking::factor(std::int64_t n, double of_damage) const {
+  return static_cast<float>((1 - of_damage) * static_cast<double>(whole_.component(0)[n]));
+}
+
+void Cracking::set_factor(std::int64_t n, const Crack& crack) {
+  model_.lattice.factor.component(0)[n] = factor(n, crack.damage);
+  const double below = crack.damage >= 1 ? std::numeric_limits<double>::infinity()
+                       : crack.kappa > 0 ? margin * crack.kappa
+                                         : margin * law(n).safe(1);
+  limit_.component(0)[n] = static_cast<float>(below);
+}
+
+void Cracking::follow(double dt) {
+  const Int3& owned = model_.layout().owned();
+  const std::size_t before = cracked_.size();
+  clear_faces();
+  for (std::int64_t k = -1; k < owned[2]; ++k)
+    for (std::int64_t j = -1; j < owned[1]; ++j)
+      if (breakable_[cell_row(model_.layout(), j, k)] != 0) follow_row(j, k, dt);
+  // Forces of faces are added up in the order of cells in memory, whoever cracked first.
+  if (cracked_.size() != before) std::sort(cracked_.begin(), cracked_.end());
+  close_faces(true);
+}
+
+void Cracking::follow_row(std::int64_t j, std::int64_t k, double dt) {
+  const lattice::Layout& layout = model_.layout();
+  const std::int64_t cells = layout.owned()[0] + 1, first = layout.index(-1, j, k);
+  const double* u = state_.displacement.component(0) + first;
+  strain_rows_(
+      {{u, u + layout.pitch(), u + layout.plane(), u + layout.plane() + layout.pitch()}, state_.displacement.stride()},
+      0.25 / model_.lattice.grid.d, cells, mean_.data(), radius_.data());
+  const std::uint16_t* material = model_.lattice.cell.component(0) + first;
+  const float* below = limit_.component(0) + first;
+  for (std::int64_t i = 0; i < cells; ++i) {
+    const double bound = bounds_[material[i]](mean_[static_cast<std::size_t>(i)], radius_[static_cast<std::size_t>(i)]);
+    if (bound > below[i]) crack_further(first + i, dt);
+  }
+}
+
+// The energy [J/m^3] that the cell's springs, intact, would hold in the step that has just been made: u.K.u'/2 with the
+// displacements before and after it. This is what central differences lose with the springs to the last bit of their
+// energy (theory, section 12).
+double Cracking::intact_energy(std::int64_t n, double dt) const {
+  const mechanics::CellMotion now = mechanics::cell_motion(model_.lattice, state_.displacement, n);
+  const mechanics::CellMotion rate = mechanics::cell_motion(model_.lattice, state_.velocity, n);
+  const auto energy = [&](double to, double of_rate) {
+    mechanics::CellMotion motion = now;
+    for (std::size_t a = 0; a < 8; ++a) {
+      motion.displacement[a] = to * now.displacement[a] + of_rate * rate.displacement[a];
+      motion.rotation[a] = to * now.rotation[a] + of_rate * rate.rotation[a];
+    }
+    return mechanics::cell_state(model_.lattice, motion, n).energy;
+  };
+  return (energy(1, -0.5 * dt) - energy(0, 0.5 * dt)) / model_.lattice.factor_of(n);
+}
+
+void Cracking::crack_further(std::int64_t n, double dt) {
+  const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
+  Crack crack = load(n);
+  const bool fresh = crack.kappa == 0;
+  if (fresh) {
+    const auto found = law(n).onset(strain, 1);
+    if (!found) return;
+    crack = *found;
+  }
+
+  // Springs that are lost take their energy with them, but for what closed faces take over.
+  const double d = model_.lattice.grid.d, before = crack.damage;
+  const double energy = intact_energy(n, dt) - law(n).faces(crack, strain).energy;
+  law(n).soften(crack, strain, energy);
+  state_.crack.component(dissipated)[n] += (crack.damage - before) * energy * whole_.component(0)[n] * d * d * d;
+  store(n, crack);
+  set_factor(n, crack);
+  if (!fresh) return;
+  cracked_.push_back(n);
+  note(n);
+}
+
+}  // namespace koshi::failure

@@ -1,0 +1,70 @@
+// Cracks of a body in motion: after each step, the cells that its displacements crack further, and the forces of closed
+// crack faces.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "failure/cell_law.h"
+#include "failure/strain_rows.h"
+#include "koshi/model.h"
+#include "mechanics/measure.h"
+
+namespace koshi::failure {
+
+/// Keeps State::crack, State::face_force and the factors of the model's cells together. Every rank follows all cells
+/// that touch its nodes, so that the bits do not depend on the ranks and no cracks are exchanged.
+class Cracking {
+ public:
+  /// The model must have a material that can crack, and its cells their factors without cracks; it has those with the
+  /// cracks of the state from then on.
+  Cracking(model::Model& model, model::State& state);
+
+  /// Factors and face forces from State::crack: at the start, and after it was changed by others (collective).
+  void restore();
+
+  /// Cracks what the state's displacements crack. Ghosts of displacement and velocity must be up to date; dt: the step
+  /// [s] that led there. Takes no memory.
+  void follow(double dt);
+
+  /// Adds the forces of closed crack faces on row (j, k), force[c] pointing to node i = 0.
+  void add_faces(std::int64_t j, std::int64_t k, double* const* force) const;
+
+  /// Adds to a balance of the state the energy of closed faces and where energy has gone (collective).
+  void complete(mechanics::Balance& balance) const;
+
+ private:
+  void follow_row(std::int64_t j, std::int64_t k, double dt);
+  void crack_further(std::int64_t n, double dt);
+  float factor(std::int64_t n, double damage) const;
+  /// The part of a cell whose faces touch.
+  double share(std::int64_t n, const Crack& crack) const {
+    return crack.damage * static_cast<double>(whole_.component(0)[n]);
+  }
+  void set_factor(std::int64_t n, const Crack& crack);
+  double intact_energy(std::int64_t n, double dt) const;
+  void note(std::int64_t n);
+  void clear_faces();
+  void close_faces(bool sliding);
+
+  Crack load(std::int64_t n) const;
+  void store(std::int64_t n, const Crack& crack);
+  const CellLaw& law(std::int64_t n) const { return *laws_[model_.lattice.cell.component(0)[n]]; }
+
+  /// Components of State::crack.
+  enum Part { damage = 0, kappa, limit, onset, ratio, taken, normal, slip = normal + 3, dissipated = slip + 3 };
+  static_assert(dissipated + 1 == model::crack_components);
+  model::Model& model_;
+  model::State& state_;
+  std::vector<std::optional<CellLaw>> laws_;  ///< by material index
+  std::vector<Bound> bounds_;                 ///< by material index
+  StrainRows strain_rows_;
+  std::vector<double> mean_, radius_;  ///< of a row
+  lattice::Field<float> whole_;        ///< factors of the cells without cracks
+  lattice::Field<float> limit_;        ///< equivalent strain below which a cell does not crack further
+  std::vector<char> breakable_;        ///< rows of cells with a material that can crack
+  std::vector<std::int64_t> cracked_;  ///< cracked cells, ascending
+  std::vector<char> touched_;          ///< rows of owned nodes next to a cracked cell
+};
+
+}  // namespace koshi::failure

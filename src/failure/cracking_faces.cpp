@@ -1,0 +1,78 @@
+// Forces and energies of closed crack faces.
+#include <algorithm>
+
+#include "base/exact_sum.h"
+#include "failure/cracking.h"
+
+namespace koshi::failure {
+
+// Marks the rows of nodes that may get forces from the faces of a cell.
+void Cracking::note(std::int64_t n) {
+  const lattice::Layout& layout = model_.layout();
+  const std::int64_t k = n / layout.plane() - 1, j = n % layout.plane() / layout.pitch() - 1;
+  for (int row = 0; row < 4; ++row) {
+    const std::int64_t at_j = j + (row & 1), at_k = k + (row >> 1);
+    if (at_j < 0 || at_k < 0 || at_j >= layout.owned()[1] || at_k >= layout.owned()[2]) continue;
+    touched_[static_cast<std::size_t>(at_j + layout.owned()[1] * at_k)] = 1;
+  }
+}
+
+void Cracking::clear_faces() {
+  for (const std::int64_t n : cracked_)
+    for (int a = 0; a < 8; ++a)
+      for (int c = 0; c < 3; ++c)
+        state_.face_force.component(c)[n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2})] = 0;
+}
+
+// A stress sigma in a cell gives its corner s, -1 or 1 along each axis, the force -d^2/4 sigma.s, since its work is
+// d^3 sigma : strain with the strain of (2.5).
+void Cracking::close_faces(bool sliding) {
+  const double d = model_.lattice.grid.d;
+  for (const std::int64_t n : cracked_) {
+    const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
+    Crack crack = load(n);
+    if (sliding) {
+      const double heat = law(n).slide_faces(crack, strain);
+      state_.crack.component(dissipated)[n] += share(n, crack) * heat * d * d * d;
+      store(n, crack);
+    }
+    const FaceContact faces = law(n).faces(crack, strain);
+    if (faces.energy == 0) continue;
+    for (int a = 0; a < 8; ++a) {
+      const Vec3 s{a & 1 ? 1.0 : -1.0, a >> 1 & 1 ? 1.0 : -1.0, a >> 2 ? 1.0 : -1.0};
+      const Vec3 force = (-0.25 * d * d * share(n, crack)) * times(faces.stress, s);
+      const std::int64_t node = n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2});
+      for (int c = 0; c < 3; ++c) state_.face_force.component(c)[node] += force[static_cast<std::size_t>(c)];
+    }
+  }
+}
+
+void Cracking::add_faces(std::int64_t j, std::int64_t k, double* const* force) const {
+  const lattice::Layout& layout = model_.layout();
+  if (touched_[static_cast<std::size_t>(j + layout.owned()[1] * k)] == 0) return;
+  const std::int64_t n = layout.index(0, j, k);
+  for (int c = 0; c < 3; ++c)
+    for (std::int64_t i = 0; i < layout.owned()[0]; ++i) force[c][i] += state_.face_force.component(c)[n + i];
+}
+
+void Cracking::complete(mechanics::Balance& balance) const {
+  const double d = model_.lattice.grid.d;
+  ExactSum faces, cracked, given, damped;
+  lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) {
+    given += state_.work.component(0)[n];
+    damped += state_.work.component(1)[n];
+    if (state_.crack.component(kappa)[n] == 0) return;
+    const Crack crack = load(n);
+    const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
+    cracked += state_.crack.component(dissipated)[n];
+    faces += share(n, crack) * law(n).faces(crack, strain).energy * d * d * d;
+  });
+  for (ExactSum* sum : {&faces, &cracked, &given, &damped}) sum->sum_ranks(model_.communicator);
+  balance.elastic_energy += faces.value();
+  balance.leapfrog_energy += faces.value();
+  balance.cracked = cracked.value();
+  balance.given = given.value();
+  balance.damped = damped.value();
+}
+
+}  // namespace koshi::failure

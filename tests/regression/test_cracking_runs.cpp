@@ -1,0 +1,176 @@
+// The program on bodies that crack: the same bits on any ranks and over a restart, and what is refused or warned of.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <sstream>
+
+#include "io/field_reader.h"
+#include "support/program_test.h"
+
+namespace koshi {
+namespace {
+
+using test::Ended;
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+// A plate that is pulled until a crack runs from its notch, and pressed again: open and closed faces, friction,
+// damping, two materials.
+const std::string plate = R"([lattice]
+spacing = "5 mm"
+[body]
+size = ["60 mm", "45 mm", "10 mm"]
+material = "concrete"
+[material.concrete]
+youngs_modulus = "30 GPa"
+poissons_ratio = 0.2
+density = "2400 kg/m^3"
+fracture = { tensile_strength = "3 MPa", fracture_energy = "20 J/m^2", cohesion = "8 MPa", friction_angle = "40 deg", residual_friction_angle = "30 deg" }
+[material.stone]
+youngs_modulus = "60 GPa"
+poissons_ratio = 0.25
+density = "2700 kg/m^3"
+[[region]]
+shape = "sphere"
+center = ["40 mm", "30 mm", "5 mm"]
+radius = "8 mm"
+material = "stone"
+[[region]]
+shape = "box"
+min = ["30 mm", "0 mm", "0 mm"]
+max = ["35 mm", "15 mm", "10 mm"]
+material = "void"
+[[boundary]]
+name = "wall"
+face = "x-min"
+fix = ["x", "y", "z", "rx", "ry", "rz"]
+[[boundary]]
+name = "pull"
+face = "x-max"
+displacement = { x = "20 um", y = "5 um" }
+history = [["0 s", 0], ["100 us", 1], ["160 us", -0.3]]
+[analysis]
+type = "dynamic"
+duration = "160 us"
+damping = { kind = "local", factor = 0.2 }
+[output]
+fields = ["displacement", "damage"]
+history_every = "8 us"
+checkpoint_every = "80 us"
+)";
+
+class CrackingRuns : public test::ProgramTest {
+ protected:
+  CrackingRuns() { test::write_file(directory_ / "plate.toml", plate); }
+  std::string file(const fs::path& name) const { return test::read_file(directory_ / name); }
+  // Values of the last row of a history.
+  std::vector<double> last_row(const fs::path& output) const {
+    std::istringstream lines(file(output / "history.csv"));
+    std::string line, last, value;
+    while (std::getline(lines, line)) last = line;
+    std::istringstream values(last);
+    std::vector<double> row;
+    while (std::getline(values, value, ',')) row.push_back(std::stod(value));
+    return row;
+  }
+  std::string refused(const std::string& options) const {
+    const Ended ended = koshi("check plate.toml " + options);
+    EXPECT_EQ(ended.code, 2) << options << ended.output;
+    return ended.error;
+  }
+};
+
+TEST_F(CrackingRuns, SameBitsOnAnyRanks) {
+  for (const char* ranks : {"1", "2", "4"})
+    ASSERT_EQ(koshi(std::string("run plate.toml --quiet --out ") + ranks + " --ranks " + ranks).code, 0) << ranks;
+  EXPECT_GT(std::ranges::count(file("1/history.csv"), '\n'), 20);
+  for (const fs::path ranks : {"2", "4"}) {
+    EXPECT_TRUE(file(ranks / "history.csv") == file("1/history.csv")) << ranks;
+    EXPECT_TRUE(file(ranks / "checkpoint.h5") == file("1/checkpoint.h5")) << ranks;
+  }
+  // It cracked, and not everywhere.
+  const io::FieldReader reader(io::list_samples(directory_ / "1").back().path);
+  ASSERT_EQ(reader.fields().size(), 2u);
+  EXPECT_EQ(reader.fields()[1].name, "damage");
+  std::vector<std::int64_t> cells(12 * 9 * 2);
+  for (std::size_t n = 0; n < cells.size(); ++n) cells[n] = static_cast<std::int64_t>(n);
+  const std::vector<float> damage = reader.gather(reader.fields()[1], cells);
+  EXPECT_GT(std::ranges::count_if(damage, [](float omega) { return omega > 0.99; }), 5);
+  EXPECT_GT(std::ranges::count(damage, 0.0F), 50);
+  EXPECT_TRUE(std::ranges::all_of(damage, [](float omega) { return omega >= 0 && omega <= 1; }));
+}
+
+// The checkpoint of a shorter run has cracks that are open and goes on as if nothing had happened, on other ranks too.
+TEST_F(CrackingRuns, RestartsGoOnWithTheSameBits) {
+  ASSERT_EQ(koshi("run plate.toml --quiet --out whole").code, 0);
+  ASSERT_EQ(koshi("run plate.toml --quiet --out half --set 'analysis.duration=\"80 us\"'").code, 0);
+  EXPECT_GT(last_row("half").back(), 0) << "cracks before the restart";
+  EXPECT_GT(last_row("whole").back(), last_row("half").back()) << "and after it";
+  EXPECT_FALSE(file("half/checkpoint.h5") == file("whole/checkpoint.h5"));
+  for (const char* ranks : {"1", "2"}) {
+    const Ended ended = koshi(std::string("run plate.toml --quiet --restart half/checkpoint.h5 --out on") + ranks +
+                              " --ranks " + ranks);
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    EXPECT_TRUE(file(std::string("on") + ranks + "/checkpoint.h5") == file("whole/checkpoint.h5")) << ranks;
+    EXPECT_EQ(last_row(std::string("on") + ranks), last_row("whole"));
+  }
+}
+
+// Cracks go over into another case that starts from their checkpoint, but into none that cannot have them.
+TEST_F(CrackingRuns, StartsFromCrackedBodies) {
+  ASSERT_EQ(koshi("run plate.toml --quiet --out first").code, 0);
+  const std::string next = "run plate.toml --quiet --set analysis.start_from=first --set 'analysis.duration=\"2 us\"' ";
+  const Ended ended = koshi(next + "--out next");
+  ASSERT_EQ(ended.code, 0) << ended.error;
+  EXPECT_GE(last_row("next").back(), last_row("first").back());
+  const Ended whole = koshi(next + "--out none --set material.concrete.fracture.law=none --set output.fields=[]");
+  EXPECT_EQ(whole.code, 2);
+  EXPECT_THAT(whole.error, HasSubstr("holds a body that can crack, and no material of this case can"));
+}
+
+TEST_F(CrackingRuns, WrongFractureIsRefusedInWords) {
+  const std::string fracture = "--set material.concrete.fracture.";
+  const std::vector<std::pair<std::string, std::string>> wrong{
+      {fracture + "tensile_strength='\"-3 MPa\"'", "tensile_strength is -3000000 Pa; it must lie between 1e-09 Pa and"},
+      {"--set material.concrete.fracture='{fracture_energy=100}'", "fracture has no \"tensile_strength\"; expected"},
+      {fracture + "fracture_energy=0", "fracture_energy is 0 J/m^2; it must lie between 1e-15 J/m^2 and"},
+      {fracture + "fracture_energy='\"3 MPa\"'",
+       "\"3 MPa\" is a pressure; expected an energy per area such as \"100 J/m^2\""},
+      {fracture + "friction_angle='\"90 deg\"'", "an angle below 90 degrees such as \"40 deg\""},
+      {fracture + "residual_friction_angle='\"-1 deg\"'",
+       "residual_friction_angle is -0.0174532925199 rad; it must be at least 0 rad"},
+      {"--set material.concrete.fracture='{tensile_strength=3e6, fracture_energy=20, friction_angle=0.5}'",
+       "\"friction_angle\" has no meaning here; it goes with a cohesion"},
+      {fracture + "cohesion='\"3 MPa\"'", "the cohesion must be above 3.21676e+06 Pa"},
+      {fracture + "law=bonds", "unknown law \"bonds\"; allowed: \"cohesive\", \"none\""},
+      {"--set lattice.springs=plain", "plain springs belong to none; use springs = \"shared\""},
+      {"--set lattice.calibration=paper", "fracture needs springs that are isotropic"},
+      {"--set analysis='{type=\"static\"}' --set output='{}'", "type = \"static\" follows no cracks"},
+      {"--set analysis='{type=\"modes\"}' --set output='{}'", "type = \"modes\" follows no cracks"},
+      {fracture + "law=none", "damage belongs to materials that crack, and there is none"},
+  };
+  for (const auto& [options, message] : wrong) EXPECT_THAT(refused(options), HasSubstr(message)) << options;
+}
+
+// Without cracks an equilibrium is as good as any, and 30 GPa 20 J/m^2 2/(3 MPa)^2 = 133 mm are far from the spacing;
+// with a strength of 30 MPa they are 1.33 mm, over sqrt(3) 0.77 mm. Cells of 5 mm then break at 30 sqrt(1.33/5) = 15.5
+// MPa across x, at 11.8 MPa obliquely.
+TEST_F(CrackingRuns, ChecksWarnOfCoarseSpacings) {
+  const Ended fine = koshi("check plate.toml");
+  EXPECT_EQ(fine.code, 0) << fine.error;
+  EXPECT_EQ((fine.output + fine.error).find("too coarse"), std::string::npos);
+  const Ended coarse =
+      koshi("check plate.toml --set material.concrete.fracture='{tensile_strength=3e7, fracture_energy=20}'");
+  EXPECT_EQ(coarse.code, 0) << coarse.error;
+  EXPECT_THAT(coarse.output + coarse.error, HasSubstr("too coarse for material \"concrete\""));
+  EXPECT_THAT(coarse.output + coarse.error, HasSubstr("open at 1.55e+07 Pa, oblique ones at as little as 1.18e+07 Pa"));
+  EXPECT_THAT(coarse.output + coarse.error, HasSubstr("a spacing below 0.00077 m keeps both"));
+  const Ended whole = koshi(
+      "check plate.toml --set material.concrete.fracture.law=none --set output.fields=[] --set "
+      "analysis='{type=\"static\"}' --set output='{}'");
+  EXPECT_EQ(whole.code, 0) << whole.error;
+}
+
+}  // namespace
+}  // namespace koshi
