@@ -16,6 +16,9 @@ using Arguments = std::vector<std::string>;
 /// `koshi run CASE.toml`: computes a case. `petsc`: the options after "--".
 void add_run_command(CLI::App& app, const Arguments& arguments, const Arguments& petsc);
 
+/// `koshi homogenize CASE.toml`: effective stiffness of a periodic case.
+void add_homogenize_command(CLI::App& app, const Arguments& arguments, const Arguments& petsc);
+
 /// `koshi check CASE.toml`: validates a case and says what it means.
 void add_check_command(CLI::App& app);
 

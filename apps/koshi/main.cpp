@@ -59,6 +59,7 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", "koshi " KOSHI_VERSION);
   app.require_subcommand(1);
   koshi::app::add_run_command(app, all, petsc);
+  koshi::app::add_homogenize_command(app, all, petsc);
   koshi::app::add_check_command(app);
   koshi::app::add_calibrate_command(app);
   koshi::app::add_paper_command(app);

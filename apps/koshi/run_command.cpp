@@ -45,7 +45,10 @@ void check_ranks(model::Definition definition, int ranks) {
   }
 }
 
-void run(const Options& options, const Arguments& arguments) {
+// What a command does with a case, on all ranks.
+using Work = void (*)(const model::Definition&, const driver::RunOptions&, const Communicator&);
+
+void run(const Options& options, const Arguments& arguments, Work work) {
   // Read first: wrong input is reported once, and without starting ranks.
   const model::Definition definition = io::read_case(options.file, options.overrides);
   if (options.ranks > 1 && !is_launched()) {
@@ -57,7 +60,7 @@ void run(const Options& options, const Arguments& arguments) {
   try {
     driver::RunOptions run = options.run;
     if (run.directory.empty()) run.directory = default_directory(options.file);
-    driver::run(definition, run, world);
+    work(definition, run, world);
   } catch (const InputError& error) {
     if (world.size() > 1) leave_together(world, error.what(), 2);
     throw;
@@ -84,7 +87,20 @@ void add_run_command(CLI::App& app, const Arguments& arguments, const Arguments&
   command->add_option("--ranks", options->ranks, "Number of processes")->check(CLI::Range(1, 1000000));
   command->add_option("--restart", options->run.restart, "Checkpoint to go on from");
   command->add_flag("--quiet", options->run.quiet, "Print errors only");
-  command->callback([options, &arguments] { run(*options, arguments); });
+  command->callback([options, &arguments] { run(*options, arguments, driver::run); });
+}
+
+void add_homogenize_command(CLI::App& app, const Arguments& arguments, const Arguments& petsc) {
+  CLI::App* command = app.add_subcommand(
+      "homogenize", "Effective stiffness of a case periodic in x, y and z; PETSc options may follow after --");
+  const auto options = std::make_shared<Options>();
+  options->run.petsc_options = petsc;
+  command->add_option("case", options->file, "Input file (TOML)")->required();
+  command->add_option("--out", options->run.directory, "Output directory; unset: the case's name with .out");
+  command->add_option("--set", options->overrides, "Override an input: section.key=value")->allow_extra_args(false);
+  command->add_option("--ranks", options->ranks, "Number of processes")->check(CLI::Range(1, 1000000));
+  command->add_flag("--quiet", options->run.quiet, "Print errors only");
+  command->callback([options, &arguments] { run(*options, arguments, driver::homogenize); });
 }
 
 void add_check_command(CLI::App& app) {

@@ -22,6 +22,12 @@ struct RunOptions {
 /// input is wrong, RunError when the run fails.
 void run(const model::Definition& definition, const RunOptions& options, const Communicator& communicator);
 
+/// What `koshi homogenize` does: computes the effective stiffness of a periodic case and writes `stiffness.json`,
+/// `stiffness.csv` and `resolved.toml` into the output directory (collective). The tolerance is that of the
+/// case's analysis. Errors as run(); a body that is not periodic in x, y and z, a
+/// case with loads or boundaries, and plain springs are wrong input.
+void homogenize(const model::Definition& definition, const RunOptions& options, const Communicator& communicator);
+
 /// What `koshi check` prints: the resolved input, springs and what they give, sizes, memory, stable step, estimated
 /// time.
 std::string check(const model::Definition& definition, const Communicator& communicator);

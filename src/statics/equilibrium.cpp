@@ -79,6 +79,16 @@ void Equilibrium::right_hand_side(double* b) {
   for (const Prescribed& p : prescribed_) b[p.unknown] = 0;
 }
 
+void Equilibrium::right_hand_side(const lattice::Field<double>& u, double* b) {
+  const std::int64_t count = model_.layout().owned()[0];
+  kernel_.for_each_row(u, [&](std::int64_t j, std::int64_t k, double* const* force) {
+    for (int c = 0; c < components_; ++c) {
+      double* const to = b + c * node_count_ + unknown_of(j, k);
+      for (std::int64_t i = 0; i < count; ++i) to[i] = force[c][i] / scale(c);
+    }
+  });
+}
+
 void Equilibrium::apply(const double* x, double* y) {
   to_field(x, work_);
   for (const Prescribed& p : prescribed_) work_.component(p.component)[p.node] = 0;

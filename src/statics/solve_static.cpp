@@ -1,19 +1,8 @@
 #include "koshi/statics.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <exception>
-#include <memory>
 
-#include "base/out_of_memory.h"
-#include "base/progress.h"
-#include "statics/ending.h"
-#include "statics/equilibrium.h"
-#include "statics/exact_vectors.h"
-#include "statics/free_motions.h"
-#include "statics/petsc.h"
-#include "statics/preconditioner.h"
+#include "statics/static_solver.h"
 
 namespace koshi::statics {
 namespace {
@@ -33,67 +22,6 @@ double end_time(const model::Definition& definition) {
   return t;
 }
 
-/// What the callbacks from PETSc need; exceptions wait here until PETSc has returned.
-struct Context {
-  Equilibrium& equilibrium;
-  Preconditioner& preconditioner;
-  const StaticOptions& options;
-  SolveReport& report;
-  double reference = 0;
-  std::exception_ptr error;
-  bool stopped = false;
-};
-
-template <class F>
-PetscErrorCode guarded(Context& context, F&& work) {
-  try {
-    work();
-    return 0;
-  } catch (...) {
-    context.error = std::current_exception();
-    return PETSC_ERR_USER;
-  }
-}
-
-template <class F>
-PetscErrorCode on_arrays(Vec x, Vec y, F&& work) {
-  const PetscScalar* from = nullptr;
-  PetscScalar* to = nullptr;
-  VecGetArrayRead(x, &from);
-  VecGetArray(y, &to);
-  work(from, to);
-  VecRestoreArray(y, &to);
-  return VecRestoreArrayRead(x, &from);
-}
-
-PetscErrorCode apply_operator(Mat matrix, Vec x, Vec y) {
-  Context* context = nullptr;
-  MatShellGetContext(matrix, &context);
-  return guarded(*context, [&] {
-    on_arrays(x, y, [&](const double* from, double* to) { context->equilibrium.apply(from, to); });
-  });
-}
-
-PetscErrorCode apply_preconditioner(PC pc, Vec r, Vec z) {
-  Context* context = nullptr;
-  PCShellGetContext(pc, &context);
-  return guarded(*context, [&] {
-    on_arrays(r, z, [&](const double* from, double* to) { context->preconditioner.apply(from, to); });
-  });
-}
-
-PetscErrorCode monitor(KSP, PetscInt iteration, PetscReal residual, void* data) {
-  Context& context = *static_cast<Context*>(data);
-  const PetscErrorCode code = guarded(context, [&] {
-    const double relative = context.reference > 0 ? residual / context.reference : 0;
-    context.report.residual_history.push_back(relative);
-    if (context.options.progress) context.options.progress(static_cast<int>(iteration), relative);
-    context.stopped = context.options.stop && context.options.stop();
-  });
-  // An error is what ends the iterations from here; the solution so far stays in its vector.
-  return context.stopped ? PETSC_ERR_USER : code;
-}
-
 /// Memory of the state that waits for its values until the end; all zero again when this is gone.
 class Borrowed {
  public:
@@ -110,78 +38,13 @@ class Borrowed {
 }  // namespace
 
 SolveReport solve_static(const model::Model& model, model::State& state, const StaticOptions& options) {
-  SolveReport report;
-  const double start = steady_seconds();
   state.time = end_time(model.definition);
   // Velocities are zero at rest: their memory holds the right-hand side, that of the displacements the operand of K.
   Borrowed right_hand_side(state.velocity);
-  const PetscSession session(model.communicator, options.petsc_options);
-  Equilibrium equilibrium(model, state.time, state.displacement);
-  const FreeMotions free(model, equilibrium.fixed());
-  const auto made = while_making("the levels of the solver",
-                                 [&] { return std::make_unique<Preconditioner>(model, equilibrium.fixed(), free); });
-  Preconditioner& preconditioner = *made;
-  report.projected_motions = free.count();
-  report.free_motions = free.description();
-  report.levels = preconditioner.level_count();
-  report.unknowns = model.node_count * model.components() - model.motion_count;
-
-  const MPI_Comm comm = MPI_Comm_f2c(model.communicator.handle());
-  Context context{equilibrium, preconditioner, options, report, 0, nullptr, false};
-  const auto size = static_cast<PetscInt>(equilibrium.size());
-  PetscMat matrix;
-  check(MatCreateShell(comm, size, size, PETSC_DETERMINE, PETSC_DETERMINE, &context, matrix.create()));
-  check(MatShellSetOperation(matrix, MATOP_MULT, reinterpret_cast<void (*)()>(apply_operator)));
-  check(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
-  PetscVec x, b;
-  check(VecCreateMPIWithArray(comm, 1, size, PETSC_DETERMINE, right_hand_side.data(), b.create()));
-  // All vectors of the iteration are copies of b: one that PETSc makes for a single rank would not inherit the sums.
-  use_exact_sums(b);
-  check(VecDuplicate(b, x.create()));
-  equilibrium.right_hand_side(right_hand_side.data());
-  free.require_balance(right_hand_side.data());
-  free.project(right_hand_side.data());
-  check(VecNorm(b, NORM_2, &context.reference));
-
-  PetscKsp solver;
-  check(KSPCreate(comm, solver.create()));
-  check(KSPSetOperators(solver, matrix, matrix));
-  check(KSPSetType(solver, KSPCG));
-  check(KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED));
-  // Strong contrasts: while a stiff part finds its place in a soft one the residual may rise by orders of magnitude.
-  check(KSPSetTolerances(solver, options.tolerance, PETSC_DEFAULT, 1e30, options.max_iterations));
-  PC pc = nullptr;
-  check(KSPGetPC(solver, &pc));
-  check(PCSetType(pc, PCSHELL));
-  check(PCShellSetContext(pc, &context));
-  check(PCShellSetApply(pc, apply_preconditioner));
-  check(KSPMonitorSet(solver, monitor, &context, nullptr));
-  check(KSPSetFromOptions(solver));
-  report.setup_seconds = steady_seconds() - start;
-
-  const PetscErrorCode code = KSPSolve(solver, b, x);
-  if (context.error) std::rethrow_exception(context.error);
-  if (!context.stopped) while_making("the vectors of the solver", [&] { check(code); });
-  report.solve_seconds = steady_seconds() - start - report.setup_seconds;
-
-  PetscInt iterations = 0;
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  check(KSPGetIterationNumber(solver, &iterations));
-  check(KSPGetConvergedReason(solver, &reason));
-  report.iterations = static_cast<int>(iterations);
-  report.relative_residual = report.residual_history.empty() ? 0 : report.residual_history.back();
-  report.stopped = context.stopped;
-  report.converged = reason > 0 && !report.stopped;
-  report.reason = report.stopped ? "stopped" : end_in_words(reason);
-  report.unused_options = session.unused_options();
-  if (!report.converged && !report.stopped) throw no_equilibrium(model, report, reason);
-
-  const PetscScalar* solution = nullptr;
-  check(VecGetArrayRead(x, &solution));
-  equilibrium.fill(solution, state.displacement);
-  check(VecRestoreArrayRead(x, &solution));
-  model.lattice.halo->exchange(state.displacement);
-  return report;
+  StaticSolver solver(model, state.time, state.displacement, options);
+  solver.equilibrium().right_hand_side(right_hand_side.data());
+  solver.free().require_balance(right_hand_side.data());
+  return solver.solve(right_hand_side.data(), 0, state.displacement);
 }
 
 }  // namespace koshi::statics

@@ -1,0 +1,70 @@
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "koshi/homogenize.h"
+
+namespace koshi::homogenize {
+namespace {
+
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+Matrix6 matrix(const material::ElasticTensor& C) {
+  Matrix6 M;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) M(i, j) = C.voigt[i][j];
+  return M;
+}
+
+}  // namespace
+
+ClosestIsotropic closest_isotropic(const material::ElasticTensor& C) {
+  // Projections on the two isotropic parts: 9 K = C_iijj, and 10 G = C_ijij - C_iijj / 3.
+  const auto& V = C.voigt;
+  double trace = 0, diagonal = 0;
+  for (int i = 0; i < 3; ++i) {
+    for (int j = 0; j < 3; ++j) trace += V[i][j];
+    diagonal += V[i][i] + 2 * V[3 + i][3 + i];
+  }
+  ClosestIsotropic closest;
+  closest.moduli = {trace / 9, (diagonal - trace / 3) / 10};
+  const double K = closest.moduli.bulk, G = closest.moduli.shear;
+  double difference = 0, size = 0;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const double isotropic = i < 3 && j < 3 ? K - 2 * G / 3 + (i == j ? 2 * G : 0) : (i == j ? G : 0);
+      // An entry of the matrix stands for one, two or four of the tensor.
+      const double count = (i < 3 ? 1 : 2) * (j < 3 ? 1 : 2);
+      difference += count * std::pow(V[i][j] - isotropic, 2);
+      size += count * V[i][j] * V[i][j];
+    }
+  closest.distance = size > 0 ? std::sqrt(difference / size) : 0;
+  return closest;
+}
+
+std::optional<std::array<std::array<double, 6>, 6>> compliance(const material::ElasticTensor& C) {
+  const Eigen::FullPivLU<Matrix6> lu(matrix(C));
+  if (!lu.isInvertible()) return std::nullopt;
+  const Matrix6 S = lu.inverse();
+  std::array<std::array<double, 6>, 6> inverse;
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) inverse[i][j] = S(i, j);
+  return inverse;
+}
+
+Vec3 wave_speeds(const material::ElasticTensor& C, double density, const Vec3& direction) {
+  const Vec3 n = (1 / std::sqrt(dot(direction, direction))) * direction;
+  // Christoffel: rho v^2 are the eigenvalues of C_ijkl n_j n_l.
+  Eigen::Matrix3d acoustic = Eigen::Matrix3d::Zero();
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k)
+      for (int j = 0; j < 3; ++j)
+        for (int l = 0; l < 3; ++l) acoustic(i, k) += C(i, j, k, l) * n[j] * n[l];
+  const Eigen::Vector3d squares =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(acoustic, Eigen::EigenvaluesOnly).eigenvalues();
+  Vec3 speeds;
+  for (int i = 0; i < 3; ++i) speeds[i] = std::sqrt(std::max(0.0, squares(2 - i)) / density);
+  return speeds;
+}
+
+}  // namespace koshi::homogenize
