@@ -2,6 +2,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <iostream>
+#include <memory>
 #include <new>
 
 #include "base/escape.h"
@@ -75,31 +76,31 @@ void run(const Options& options, const Arguments& arguments, Work work) {
   }
 }
 
+// What all commands take that compute a case; only some can go on from a checkpoint.
+std::shared_ptr<Options> add_options(CLI::App& command, const Arguments& petsc, bool restarts) {
+  const auto options = std::make_shared<Options>();
+  options->run.petsc_options = petsc;
+  command.add_option("case", options->file, "Input file (TOML)")->required();
+  command.add_option("--out", options->run.directory, "Output directory; unset: the case's name with .out");
+  command.add_option("--set", options->overrides, "Override an input: section.key=value")->allow_extra_args(false);
+  command.add_option("--ranks", options->ranks, "Number of processes")->check(CLI::Range(1, 1000000));
+  if (restarts) command.add_option("--restart", options->run.restart, "Checkpoint to go on from");
+  command.add_flag("--quiet", options->run.quiet, "Print errors only");
+  return options;
+}
+
 }  // namespace
 
 void add_run_command(CLI::App& app, const Arguments& arguments, const Arguments& petsc) {
   CLI::App* command = app.add_subcommand("run", "Compute a case; PETSc options may follow after --");
-  const auto options = std::make_shared<Options>();
-  options->run.petsc_options = petsc;
-  command->add_option("case", options->file, "Input file (TOML)")->required();
-  command->add_option("--out", options->run.directory, "Output directory; unset: the case's name with .out");
-  command->add_option("--set", options->overrides, "Override an input: section.key=value")->allow_extra_args(false);
-  command->add_option("--ranks", options->ranks, "Number of processes")->check(CLI::Range(1, 1000000));
-  command->add_option("--restart", options->run.restart, "Checkpoint to go on from");
-  command->add_flag("--quiet", options->run.quiet, "Print errors only");
+  const auto options = add_options(*command, petsc, true);
   command->callback([options, &arguments] { run(*options, arguments, driver::run); });
 }
 
 void add_homogenize_command(CLI::App& app, const Arguments& arguments, const Arguments& petsc) {
   CLI::App* command = app.add_subcommand(
       "homogenize", "Effective stiffness of a case periodic in x, y and z; PETSc options may follow after --");
-  const auto options = std::make_shared<Options>();
-  options->run.petsc_options = petsc;
-  command->add_option("case", options->file, "Input file (TOML)")->required();
-  command->add_option("--out", options->run.directory, "Output directory; unset: the case's name with .out");
-  command->add_option("--set", options->overrides, "Override an input: section.key=value")->allow_extra_args(false);
-  command->add_option("--ranks", options->ranks, "Number of processes")->check(CLI::Range(1, 1000000));
-  command->add_flag("--quiet", options->run.quiet, "Print errors only");
+  const auto options = add_options(*command, petsc, false);
   command->callback([options, &arguments] { run(*options, arguments, driver::homogenize); });
 }
 

@@ -32,6 +32,10 @@ void require_elastic_solid(const Elastic& elastic);
 /// lambda delta_ij delta_kl + mu (delta_ik delta_jl + delta_il delta_jk).
 ElasticTensor elastic_tensor(const Elastic& elastic);
 
+/// Inverse of C for stresses and engineering strains (shear strains count twice) [1/Pa]; nothing when C is singular:
+/// some strain meets no resistance.
+std::optional<std::array<std::array<double, 6>, 6>> compliance(const ElasticTensor& C);
+
 /// What a stiffness tensor means along the three axes.
 struct EngineeringConstants {
   Vec3 youngs_modulus{};  ///< E_i [Pa]
@@ -41,7 +45,7 @@ struct EngineeringConstants {
   double zener_ratio = 0;  ///< 2 C_1212 / (C_1111 - C_1122), means over the axes; 1 for an isotropic lattice
 };
 
-/// Nothing when C is singular: some strain meets no resistance.
+/// Nothing when C is singular.
 std::optional<EngineeringConstants> engineering_constants(const ElasticTensor& C);
 
 /// Bonds of one direction and length, all with the same stiffness.

@@ -27,6 +27,8 @@ struct Grid {
     const Int3 n = nodes();
     return n[0] * n[1] * n[2];
   }
+  /// Likewise.
+  std::int64_t cell_count() const { return cells[0] * cells[1] * cells[2]; }
   /// Of a global node [m].
   Vec3 position(const Int3& node) const {
     return {origin[0] + d * static_cast<double>(node[0]), origin[1] + d * static_cast<double>(node[1]),

@@ -1,8 +1,6 @@
 // Effective elastic stiffness of a body that is periodic in all three directions.
 #pragma once
 
-#include <array>
-#include <optional>
 #include <vector>
 
 #include "koshi/calibration.h"
@@ -58,9 +56,6 @@ Effective effective_stiffness(const model::Model& model, const statics::StaticOp
 void require_periodic_cell(const model::Definition& definition);
 
 ClosestIsotropic closest_isotropic(const material::ElasticTensor& C);  ///< see ClosestIsotropic
-
-/// Inverse of C for stresses and engineering strains [1/Pa]; nothing when C is singular.
-std::optional<std::array<std::array<double, 6>, 6>> compliance(const material::ElasticTensor& C);
 
 /// Speeds [m/s] of the plane waves along a direction (of any length but 0), the fastest first.
 Vec3 wave_speeds(const material::ElasticTensor& C, double density, const Vec3& direction);

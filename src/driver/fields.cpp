@@ -3,6 +3,7 @@
 #include "dynamics/orientation.h"
 #include "lattice/halo.h"
 #include "mechanics/cell_stress.h"
+#include "mechanics/measure.h"
 
 namespace koshi::driver {
 namespace {
@@ -10,7 +11,7 @@ namespace {
 using lattice::Field;
 
 const std::vector<std::string> vector_names{"x", "y", "z"};
-const std::vector<std::string> tensor_names{"xx", "yy", "zz", "yz", "xz", "xy"};
+const std::vector<std::string> tensor_names = mechanics::component_names(model::ProbeDefinition::Quantity::stress);
 
 // A field on the solid cells whose lowest corner this rank owns: f(state of the cell, component).
 template <class F>

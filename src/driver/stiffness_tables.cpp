@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "base/escape.h"
+#include "mechanics/measure.h"
 
 namespace koshi::driver {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using homogenize::Moduli;
 
-constexpr std::array<const char*, 6> component{"xx", "yy", "zz", "yz", "xz", "xy"};
+const std::vector<std::string> component = mechanics::component_names(model::ProbeDefinition::Quantity::stress);
 constexpr std::array<Vec3, 3> axes{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
 
 double fraction_of(const homogenize::Effective& effective, std::uint16_t material) {
@@ -39,7 +40,7 @@ std::string moduli_line(const char* title, const Moduli& moduli) {
 Json stiffness_json(const model::Model& model, const homogenize::Effective& effective) {
   const material::ElasticTensor& C = effective.stiffness;
   Json json{{"components", component}, {"stiffness", C.voigt}, {"asymmetry", effective.asymmetry}};
-  const auto S = homogenize::compliance(C);
+  const auto S = material::compliance(C);
   json["compliance"] = S ? Json(*S) : Json(nullptr);
   if (const auto constants = material::engineering_constants(C))
     json["engineering"] = {{"youngs_modulus", constants->youngs_modulus},
@@ -71,13 +72,13 @@ Json stiffness_json(const model::Model& model, const homogenize::Effective& effe
 std::vector<std::string> stiffness_columns() {
   std::vector<std::string> columns;
   for (const char* const unit : {"Pa", "1/Pa"})
-    for (const char* const name : component)
+    for (const std::string& name : component)
       columns.push_back(fmt::format("{} {} [{}]", *unit == 'P' ? "C" : "S", name, unit));
   return columns;
 }
 
 std::vector<std::vector<double>> stiffness_rows(const homogenize::Effective& effective) {
-  const auto S = homogenize::compliance(effective.stiffness);
+  const auto S = material::compliance(effective.stiffness);
   std::vector<std::vector<double>> rows;
   for (std::size_t i = 0; i < 6; ++i) {
     const auto& C = effective.stiffness.voigt[i];
@@ -90,7 +91,7 @@ std::vector<std::vector<double>> stiffness_rows(const homogenize::Effective& eff
 std::string stiffness_text(const model::Model& model, const homogenize::Effective& effective) {
   const material::ElasticTensor& C = effective.stiffness;
   std::string text = "effective stiffness C [Pa], engineering shear strains\n    ";
-  for (const char* const name : component) text += fmt::format(" {:>12}", name);
+  for (const std::string& name : component) text += fmt::format(" {:>12}", name);
   text += '\n';
   double largest = 0;
   for (const auto& row : C.voigt)
@@ -116,7 +117,7 @@ std::string stiffness_text(const model::Model& model, const homogenize::Effectiv
   }
 
   const homogenize::ClosestIsotropic closest = homogenize::closest_isotropic(C);
-  text += fmt::format("                                 K [Pa]       G [Pa]\n");
+  text += "                                 K [Pa]       G [Pa]\n";
   text += moduli_line("Voigt", effective.bounds.voigt);
   text += moduli_line("Hashin-Shtrikman upper", effective.bounds.hashin_upper);
   text += moduli_line("closest isotropic C", closest.moduli);

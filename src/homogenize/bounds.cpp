@@ -70,8 +70,7 @@ Bounds find_bounds(const model::Model& model) {
   means.shifts = {Moduli{0, 0}, Moduli{4 * least.shear / 3, partner(least)}, Moduli{4 * most.shear / 3, partner(most)}};
   for_each_cell([&](const Moduli& m) { means.add(m); });
   means.sum_ranks(communicator);
-  const Int3& box = model.lattice.grid.cells;
-  const auto cells = static_cast<double>(box[0] * box[1] * box[2]);
+  const auto cells = static_cast<double>(model.lattice.grid.cell_count());
   Bounds bounds;
   bounds.voigt = {whole[0].value() / cells, whole[1].value() / cells};
   bounds.hashin_upper = means.mean(2, cells);

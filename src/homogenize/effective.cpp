@@ -29,8 +29,7 @@ void count_phases(const model::Model& model, Effective& effective) {
   std::vector<std::int64_t> count(model.materials.size());
   lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) { ++count[body.cell.component(0)[n]]; });
   model.communicator.sum(count);
-  const Int3& box = body.grid.cells;
-  const auto cells = static_cast<double>(box[0] * box[1] * box[2]);
+  const auto cells = static_cast<double>(body.grid.cell_count());
   for (std::size_t m = 0; m < count.size(); ++m) {
     if (count[m] == 0) continue;
     const double fraction = static_cast<double>(count[m]) / cells;

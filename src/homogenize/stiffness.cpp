@@ -5,18 +5,6 @@
 #include "koshi/homogenize.h"
 
 namespace koshi::homogenize {
-namespace {
-
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
-
-Matrix6 matrix(const material::ElasticTensor& C) {
-  Matrix6 M;
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) M(i, j) = C.voigt[i][j];
-  return M;
-}
-
-}  // namespace
 
 ClosestIsotropic closest_isotropic(const material::ElasticTensor& C) {
   // Projections on the two isotropic parts: 9 K = C_iijj, and 10 G = C_ijij - C_iijj / 3.
@@ -40,16 +28,6 @@ ClosestIsotropic closest_isotropic(const material::ElasticTensor& C) {
     }
   closest.distance = size > 0 ? std::sqrt(difference / size) : 0;
   return closest;
-}
-
-std::optional<std::array<std::array<double, 6>, 6>> compliance(const material::ElasticTensor& C) {
-  const Eigen::FullPivLU<Matrix6> lu(matrix(C));
-  if (!lu.isInvertible()) return std::nullopt;
-  const Matrix6 S = lu.inverse();
-  std::array<std::array<double, 6>, 6> inverse;
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j) inverse[i][j] = S(i, j);
-  return inverse;
 }
 
 Vec3 wave_speeds(const material::ElasticTensor& C, double density, const Vec3& direction) {

@@ -28,8 +28,7 @@ std::string piece_name(int rank) { return fmt::format("piece_{}.vti", rank); }
 
 FieldWriter::FieldWriter(const model::Model& model, fs::path directory, std::optional<double> restart_time)
     : model_(model), directory_(std::move(directory)) {
-  const Int3& cells = model.lattice.grid.cells;
-  has_empty_cells_ = model.cell_count < cells[0] * cells[1] * cells[2];
+  has_empty_cells_ = model.cell_count < model.lattice.grid.cell_count();
   collectively(model.communicator, [&] {
     if (restart_time && model_.communicator.is_root()) read_collection(*restart_time);
   });

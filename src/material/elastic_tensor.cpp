@@ -52,24 +52,29 @@ ElasticTensor lattice_tensor(std::span<const BondGroup> bonds, double volume, do
   return C;
 }
 
-std::optional<EngineeringConstants> engineering_constants(const ElasticTensor& C) {
-  // Compliance in Voigt's form, where shear strains count twice.
-  Eigen::Matrix<double, 6, 6> stiffness;
-  for (int row = 0; row < 6; ++row)
-    for (int column = 0; column < 6; ++column) stiffness(row, column) = C.voigt[row][column];
-  const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> lu(stiffness);
+std::optional<std::array<std::array<double, 6>, 6>> compliance(const ElasticTensor& C) {
+  using Matrix6 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
+  const Eigen::FullPivLU<Eigen::Matrix<double, 6, 6>> lu(Eigen::Map<const Matrix6>(C.voigt[0].data()));
   if (!lu.isInvertible()) return std::nullopt;
-  const Eigen::Matrix<double, 6, 6> S = lu.inverse();
+  std::array<std::array<double, 6>, 6> S;
+  Eigen::Map<Matrix6>(S[0].data()) = lu.inverse();
+  return S;
+}
+
+std::optional<EngineeringConstants> engineering_constants(const ElasticTensor& C) {
+  const auto inverse = compliance(C);
+  if (!inverse) return std::nullopt;
+  const auto& S = *inverse;
 
   EngineeringConstants constants;
   for (int i = 0; i < 3; ++i) {
-    constants.youngs_modulus[i] = 1 / S(i, i);
-    constants.shear_modulus[i] = 1 / S(3 + i, 3 + i);
-    for (int j = 0; j < 3; ++j) constants.poissons_ratio[i][j] = i == j ? 0 : -S(j, i) / S(i, i);
+    constants.youngs_modulus[i] = 1 / S[i][i];
+    constants.shear_modulus[i] = 1 / S[3 + i][3 + i];
+    for (int j = 0; j < 3; ++j) constants.poissons_ratio[i][j] = i == j ? 0 : -S[j][i] / S[i][i];
   }
-  const double C1111 = stiffness(0, 0) + stiffness(1, 1) + stiffness(2, 2);
-  const double C1122 = stiffness(0, 1) + stiffness(1, 2) + stiffness(0, 2);
-  const double C1212 = stiffness(3, 3) + stiffness(4, 4) + stiffness(5, 5);
+  const double C1111 = C.voigt[0][0] + C.voigt[1][1] + C.voigt[2][2];
+  const double C1122 = C.voigt[0][1] + C.voigt[1][2] + C.voigt[0][2];
+  const double C1212 = C.voigt[3][3] + C.voigt[4][4] + C.voigt[5][5];
   constants.zener_ratio = 2 * C1212 / (C1111 - C1122);
   return constants;
 }

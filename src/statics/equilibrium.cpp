@@ -62,31 +62,30 @@ void Equilibrium::to_field(const double* x, lattice::Field<double>& field) const
       }
 }
 
-void Equilibrium::right_hand_side(double* b) {
+template <class F>
+void Equilibrium::forces(const lattice::Field<double>& u, double* b, F&& add_loads) {
   const std::int64_t count = model_.layout().owned()[0];
+  kernel_.for_each_row(u, [&](std::int64_t j, std::int64_t k, double* const* force) {
+    add_loads(j, k, force);
+    for (int c = 0; c < components_; ++c) {
+      double* const to = b + c * node_count_ + unknown_of(j, k);
+      for (std::int64_t i = 0; i < count; ++i) to[i] = force[c][i] / scale(c);
+    }
+  });
+}
+
+void Equilibrium::right_hand_side(double* b) {
   work_.zero();
   for (const Prescribed& p : prescribed_) work_.component(p.component)[p.node] = p.value;
   model_.lattice.halo->exchange(work_);
   mechanics::LoadRows loads(model_);
   loads.set_time(t_);
-  kernel_.for_each_row(work_, [&](std::int64_t j, std::int64_t k, double* const* force) {
-    loads.add(j, k, force);
-    for (int c = 0; c < components_; ++c) {
-      double* const to = b + c * node_count_ + unknown_of(j, k);
-      for (std::int64_t i = 0; i < count; ++i) to[i] = force[c][i] / scale(c);
-    }
-  });
+  forces(work_, b, [&](std::int64_t j, std::int64_t k, double* const* force) { loads.add(j, k, force); });
   for (const Prescribed& p : prescribed_) b[p.unknown] = 0;
 }
 
 void Equilibrium::right_hand_side(const lattice::Field<double>& u, double* b) {
-  const std::int64_t count = model_.layout().owned()[0];
-  kernel_.for_each_row(u, [&](std::int64_t j, std::int64_t k, double* const* force) {
-    for (int c = 0; c < components_; ++c) {
-      double* const to = b + c * node_count_ + unknown_of(j, k);
-      for (std::int64_t i = 0; i < count; ++i) to[i] = force[c][i] / scale(c);
-    }
-  });
+  forces(u, b, [](std::int64_t, std::int64_t, double* const*) {});
 }
 
 void Equilibrium::apply(const double* x, double* y) {

@@ -32,6 +32,9 @@ class Equilibrium {
   const FixedNodes& fixed() const { return fixed_; }
 
  private:
+  /// b = -K u and what add_loads(j, k, force) adds to row (j, k).
+  template <class F>
+  void forces(const lattice::Field<double>& u, double* b, F&& add_loads);
   void to_field(const double* x, lattice::Field<double>& field) const;
   /// Number of component 0 of the first node of row (j, k).
   std::int64_t unknown_of(std::int64_t j, std::int64_t k) const;

@@ -31,9 +31,8 @@ mechanics::Tensor6 mean_stress(const model::Model& model, const lattice::Field<d
     for (std::size_t v = 0; v < 6; ++v) sums[v] += stress[v];
   });
   sum_ranks(sums, model.communicator);
-  const Int3& cells = body.grid.cells;
   mechanics::Tensor6 mean;
-  for (std::size_t v = 0; v < 6; ++v) mean[v] = sums[v].value() / static_cast<double>(cells[0] * cells[1] * cells[2]);
+  for (std::size_t v = 0; v < 6; ++v) mean[v] = sums[v].value() / static_cast<double>(body.grid.cell_count());
   return mean;
 }
 

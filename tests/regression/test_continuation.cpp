@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
+#include <utility>
 
 #include "io/checkpoint_seal.h"
+#include "io/history_reader.h"
 #include "support/program_test.h"
 
 namespace koshi {
@@ -52,18 +53,9 @@ class Continuation : public test::ProgramTest {
   Continuation() { test::write_file(directory_ / "bar.toml", bar); }
   // Columns of a history by their place in the header.
   std::vector<std::vector<double>> history(const fs::path& output) const {
-    std::istringstream lines(test::read_file(directory_ / output / "history.csv"));
-    std::string line;
-    std::getline(lines, line);
     std::vector<std::vector<double>> columns;
-    while (std::getline(lines, line)) {
-      std::istringstream fields(line);
-      std::string field;
-      for (std::size_t c = 0; std::getline(fields, field, ','); ++c) {
-        if (c == columns.size()) columns.emplace_back();
-        columns[c].push_back(std::stod(field));
-      }
-    }
+    for (io::HistoryColumn& column : io::read_history(directory_ / output / "history.csv"))
+      columns.push_back(std::move(column.values));
     return columns;
   }
 };

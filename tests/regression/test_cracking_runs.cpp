@@ -3,9 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <sstream>
 
 #include "io/field_reader.h"
+#include "io/history_reader.h"
 #include "support/program_test.h"
 
 namespace koshi {
@@ -66,12 +66,9 @@ class CrackingRuns : public test::ProgramTest {
   std::string file(const fs::path& name) const { return test::read_file(directory_ / name); }
   // Values of the last row of a history.
   std::vector<double> last_row(const fs::path& output) const {
-    std::istringstream lines(file(output / "history.csv"));
-    std::string line, last, value;
-    while (std::getline(lines, line)) last = line;
-    std::istringstream values(last);
     std::vector<double> row;
-    while (std::getline(values, value, ',')) row.push_back(std::stod(value));
+    for (const io::HistoryColumn& column : io::read_history(directory_ / output / "history.csv"))
+      row.push_back(column.values.back());
     return row;
   }
   std::string refused(const std::string& options) const {
