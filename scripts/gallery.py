@@ -31,6 +31,9 @@ class Results:
 
     def __init__(self, directory):
         self.summary = json.loads((directory / "summary.json").read_text())
+        self.modes = self.summary.get("modes", [])
+        if self.modes:
+            return  # they have no history
         with open(directory / "history.csv", newline="") as file:
             head, *rows = csv.reader(file)
         self._history = {name: [float(row[i]) for row in rows] for i, name in enumerate(head)}

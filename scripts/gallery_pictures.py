@@ -240,10 +240,14 @@ def tunnel(maker):
     return side_by_side(body, drawn(fig))
 
 
+def tuning_fork(maker):
+    return side_by_side(*maker.bodies("50_tuning_fork", ["sample=0"], ["sample=2"], look="y"))
+
+
 PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
             "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
             "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
-            "10_tunnel": tunnel}
+            "10_tunnel": tunnel, "50_tuning_fork": tuning_fork}
 
 
 def main():

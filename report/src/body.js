@@ -19,6 +19,7 @@ export class Body {
     this.linesPossible = this.mesh.quads.length / 4 <= MOST_QUADS_WITH_LINES;
     this.samples = block.samples;
     this.note = block.note;
+    this.swings = Boolean(block.swings);
     this.cache = new Map();
   }
 
@@ -62,13 +63,13 @@ export class Body {
     return this.mesh.points.map((x, i) => x + scale * u[i]);
   }
 
-  /** Start value of the deformation scale: 1, 2 or 5 times a power of ten, at least 1. */
+  /** Start value of the deformation scale: 1, 2 or 5 times a power of ten; at least 1 unless shapes have no size. */
   startScale() {
     if (!this.hasDisplacement()) return 1;
     const largest = Math.max(...this.samples.map((_, sample) => range(this.values("displacement", "magnitude", sample)).max));
     const { min, max } = this.bounds;
     const wanted = (VISIBLE_PART * Math.hypot(...max.map((value, axis) => value - min[axis]))) / largest;
-    if (!(wanted > 1) || !Number.isFinite(wanted)) return 1;
+    if (!(wanted > (this.swings ? 0 : 1)) || !Number.isFinite(wanted)) return 1;
     const power = 10 ** Math.floor(Math.log10(wanted));
     return power * [5, 2, 1].find((digit) => digit * power <= wanted);
   }

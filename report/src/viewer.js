@@ -6,6 +6,7 @@ import { labelled, number, prefixed, quantity } from "./format.js";
 import { layersBelow } from "./mesh.js";
 import { Picture } from "./picture.js";
 import { canDraw } from "./scene.js";
+import { swing } from "./swing.js";
 import { colourOf, onTheme } from "./theme.js";
 import { triad } from "./triad.js";
 
@@ -20,7 +21,7 @@ export function viewer(block) {
   const body = new Body(block);
   const names = body.fieldNames();
   const first = names.includes("displacement") ? "displacement" : names[0];
-  const state = { sample: body.samples.length - 1, field: first, choice: body.choices(first)[0], limits: null,
+  const state = { sample: body.swings ? 0 : body.samples.length - 1, field: first, choice: body.choices(first)[0], limits: null,
     scale: body.startScale(), cut: null, lines: "edges", outline: body.hasDisplacement() };
 
   const view = element("div", { class: "view", id: "view", tabindex: "0", role: "application",
@@ -28,15 +29,16 @@ export function viewer(block) {
   const readout = element("output", { class: "readout", "aria-live": "polite" });
   const key = element("div", { class: "key", id: "key" });
   let picture;
+  const drawTimes = (factor) => picture?.draw({ ...state, scale: factor * state.scale });
   const draw = () => {
-    picture?.draw(state);
+    drawTimes(1);
     key.replaceChildren(colourBar(`${state.field}${body.choices(state.field).length > 1 ? `, ${state.choice}` : ""}`,
       body.field(state.field).unit, { ...body.map(state.field, state.choice), ...state.limits }));
   };
   const change = (values) => { Object.assign(state, values); readout.textContent = ""; draw(); };
 
   const panel = element("div", { class: "panel", role: "group", "aria-label": "Controls of the view" },
-    fieldControls(body, state, change), sampleControls(body, state, change), deformationControls(body, state, change),
+    fieldControls(body, state, change), sampleControls(body, state, change, drawTimes), deformationControls(body, state, change),
     cutControls(body, change, (axis) => picture?.scene.looksAlong(axis)), viewControls(body, change, () => picture));
   const node = section("body", "Deformed body",
     element("div", { class: "viewer" },
@@ -105,8 +107,8 @@ function fieldControls(body, state, change) {
   return element("fieldset", {}, element("legend", { text: "Colour" }), field.row, component.row, limits);
 }
 
-function sampleControls(body, state, change) {
-  if (body.samples.length < 2) return null;
+function sampleControls(body, state, change, drawTimes) {
+  if (body.samples.length < 2 && !body.swings) return null;
   const name = element("output", { class: "value", for: "sample", text: body.sampleName(state.sample) });
   const slider = element("input", { type: "range", id: "sample", min: 0, max: body.samples.length - 1, step: 1, value: state.sample });
   const show = (sample) => {
@@ -115,6 +117,14 @@ function sampleControls(body, state, change) {
     slider.setAttribute("aria-valuetext", body.sampleName(sample));
     change({ sample });
   };
+  const play = body.swings ? swing(drawTimes) : playButton(body, state, show);
+  slider.addEventListener("input", () => show(slider.valueAsNumber));
+  const kind = body.swings ? "Mode" : "Sample";
+  return element("fieldset", {}, element("legend", { text: kind }),
+    element("div", { class: "inline" }, play, element("label", { class: "wide" }, element("span", { class: "hidden", text: kind }), slider), name));
+}
+
+function playButton(body, state, show) {
   let timer = null;
   const play = element("button", { type: "button", text: "▶", "aria-label": "Play the samples", on: { click: () => {
     if (timer) { clearInterval(timer); timer = null; }
@@ -122,9 +132,7 @@ function sampleControls(body, state, change) {
     play.textContent = timer ? "❚❚" : "▶";
     play.setAttribute("aria-label", timer ? "Stop" : "Play the samples");
   } } });
-  slider.addEventListener("input", () => show(slider.valueAsNumber));
-  return element("fieldset", {}, element("legend", { text: "Sample" }),
-    element("div", { class: "inline" }, play, element("label", { class: "wide" }, element("span", { class: "hidden", text: "Sample" }), slider), name));
+  return play;
 }
 
 function deformationControls(body, state, change) {
@@ -142,9 +150,11 @@ function deformationControls(body, state, change) {
   const button = (text, scale, title) => element("button", { type: "button", text, title, on: { click: () => show(scale) } });
   const outline = element("input", { type: "checkbox", id: "outline", checked: true, title: "Edges of the undeformed body" });
   outline.addEventListener("change", () => change({ outline: outline.checked }));
-  return element("fieldset", {}, element("legend", { text: "Deformation, times" }),
+  // A shape has no size of its own, so its true scale means nothing.
+  const truth = body.swings ? null : button("true", 1, "True scale");
+  return element("fieldset", {}, element("legend", { text: body.swings ? "Largest displacement [m]" : "Deformation, times" }),
     element("div", { class: "inline" }, element("label", { class: "wide" }, element("span", { class: "hidden", text: "Deformation scale" }), slider), box),
-    element("div", { class: "inline" }, button("none", 0, "Undeformed"), button("true", 1, "True scale"), button("auto", start, "Start value"),
+    element("div", { class: "inline" }, button("none", 0, "Undeformed"), truth, button("auto", start, "Start value"),
       element("label", { class: "check" }, outline, "outline")));
 }
 

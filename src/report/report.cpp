@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
+#include <map>
 #include <vector>
 
 #include "base/escape.h"
@@ -16,6 +17,7 @@
 #include "report/conditions.h"
 #include "report/history.h"
 #include "report/mesh.h"
+#include "report/modes.h"
 #include "report/tables.h"
 
 namespace koshi::report {
@@ -90,6 +92,7 @@ void add_summary(json& data, const model::Definition& definition, const json& su
   data["achieved"] = springs.achieved;
   data["probes"] = probe_tables(definition, summary);
   data["timing"] = run_tables(summary);
+  if (json modes = modes_table(summary); !modes.is_null()) data["tables"] = {std::move(modes)};
   const json residuals = summary.value(json::json_pointer("/analysis/residual_history"), json());
   if (residuals.is_array() && residuals.size() > 1)
     data["convergence"] = {{"residuals", residuals}, {"tolerance", definition.analysis.tolerance}};
@@ -125,8 +128,11 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
             {"summary", summary},
             {"materials", materials_table(definition)},
             {"conditions", conditions_table(definition)}};
+  const bool modal = definition.analysis.type == model::AnalysisDefinition::Type::modes;
+  std::map<int, std::string> labels;  // of modes
   try {
     add_summary(data, definition, summary);
+    if (modal) labels = mode_labels(summary);
   } catch (const json::exception&) {
     throw InputError(fmt::format("{} is no summary as Koshi writes it", (directory / "summary.json").native()));
   }
@@ -134,10 +140,14 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
   if (const fs::path history = directory / "history.csv"; fs::exists(history))
     data["history"] = history_block(io::read_history(history), definition);
   std::vector<ReportSample> samples;
-  for (const auto& [time, path] : io::list_samples(directory)) samples.push_back({path, time, {}});
+  for (const auto& [time, path] : io::list_samples(directory))
+    samples.push_back({path, time, labels[static_cast<int>(time)]});
   std::vector<std::string> materials;
   for (const model::MaterialDefinition& material : definition.materials) materials.push_back(material.name);
-  if (!samples.empty()) data["mesh"] = mesh_block(samples, materials);
+  if (!samples.empty()) {
+    data["mesh"] = mesh_block(samples, materials);
+    if (modal) data["mesh"]["swings"] = true;
+  }
   return data;
 }
 

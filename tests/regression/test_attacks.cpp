@@ -160,6 +160,34 @@ fix = ["x", "y", "z"]
   EXPECT_THAT(ended.output, HasSubstr("cells         3 x 6 x 3, 6 solid\n"));
 }
 
+// Held along an edge, node rotations free: the body may turn about it, which no load asks for.
+TEST(Attacks, BodyOnAHingeIsSolvedWithoutItsFreeMotion) {
+  const test::TemporaryDirectory directory;
+  const std::string hinge = attacks / "hinge.toml";
+  const std::string least_squares = "--set lattice.kinematics=least-squares";
+  for (const std::string& more : {std::string(), least_squares, std::string("--ranks 2")}) {
+    SCOPED_TRACE(more);
+    const Ended ended = test::koshi(directory.path(), "run '" + hinge + "' --out out " + more);
+    EXPECT_EQ(ended.code, 0) << ended.error;
+    EXPECT_THAT(ended.output, HasSubstr("is free to rotate about x; the solution is without that motion"));
+  }
+}
+
+// Steps of 1e-300 s would be more than can be counted; they are not one step of the whole duration.
+TEST(Attacks, StepsBeyondCountAreRefused) {
+  const test::TemporaryDirectory directory;
+  const std::string dyn = attacks / "dyn.toml";
+  for (const char* key : {"time_step", "safety"}) {
+    SCOPED_TRACE(key);
+    const Ended ended = test::koshi(directory.path(), "run '" + dyn + "' --out out --set analysis." + key + "=1e-300");
+    EXPECT_EQ(ended.code, 2);
+    EXPECT_THAT(ended.error, StartsWith("--set analysis." + std::string(key) + "="));
+    EXPECT_FALSE(fs::exists(directory / "out"));
+  }
+  const Ended ended = test::koshi(directory.path(), "run '" + dyn + "' --quiet --out out");
+  EXPECT_EQ(ended.code, 0) << ended.error;
+}
+
 // A pipe that nobody writes to, a device, a folder: refused at once wherever a file is read.
 TEST(Attacks, OnlyRegularFilesAreRead) {
   const test::TemporaryDirectory directory;

@@ -90,11 +90,13 @@ TEST_F(Edges, CantileverInMotionKeepsItsEnergy) {
 
 // Two runs into one directory: the second is refused while the first goes on, and takes over once it was killed.
 TEST_F(Edges, TwoRunsDoNotMixTheirResults) {
+  const fs::path attacks = fs::path(KOSHI_SOURCE_DIR) / "tests/attacks";
+  const std::string one = attacks / "two1.toml";
   const pid_t first = ::fork();
   if (first == 0) {
     if (::chdir(directory_.path().c_str()) != 0) ::_exit(1);
     // Too long to end by itself.
-    ::execl(KOSHI_PROGRAM, "koshi", "run", "motion.toml", "--out", "out", "--quiet", "--set", "analysis.duration=1000",
+    ::execl(KOSHI_PROGRAM, "koshi", "run", one.c_str(), "--out", "out", "--quiet", "--set", "analysis.duration=1000",
             nullptr);
     ::_exit(1);
   }
@@ -102,7 +104,7 @@ TEST_F(Edges, TwoRunsDoNotMixTheirResults) {
     ASSERT_EQ(::waitpid(first, nullptr, WNOHANG), 0) << "the first run has ended";
     std::this_thread::yield();
   }
-  const std::string second = "run motion.toml --out out --quiet --set 'material.rock.density=4000'";
+  const std::string second = "run '" + (attacks / "two2.toml").native() + "' --out out --quiet";
   const Ended refused = koshi(second);
   EXPECT_EQ(refused.code, 2);
   EXPECT_THAT(refused.error, StartsWith("error: output directory out is in use by process " + std::to_string(first)));
