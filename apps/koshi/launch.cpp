@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,6 +18,8 @@
 
 namespace koshi::app {
 namespace {
+
+constexpr rlim_t shared_file_bytes = 16'000'000;
 
 volatile std::sig_atomic_t launcher = 0;  // process number of mpiexec
 volatile std::sig_atomic_t interrupts = 0;
@@ -94,6 +97,14 @@ void launch(int ranks, const std::vector<std::string>& arguments) {
     throw InputError(Place{"--ranks"},
                      "the environment has no PATH, where mpiexec and its helpers are looked for; set it, such as "
                      "PATH=/usr/bin:/bin, or leave --ranks out");
+  // Open MPI's processes wait for each other for ever when they cannot make the files of 4 MB that they share.
+  rlimit files{};
+  getrlimit(RLIMIT_FSIZE, &files);
+  if (files.rlim_cur < shared_file_bytes)
+    throw InputError(Place{"--ranks"},
+                     fmt::format("files may have at most {} bytes (ulimit -f); several ranks share files of more: allow "
+                                 "{}, or leave --ranks out",
+                                 files.rlim_cur, shared_file_bytes));
   set_environment(ranks);
   std::vector<std::string> command{"mpiexec", "-n", std::to_string(ranks), "/proc/self/exe"};
   std::vector<char> self(4096);

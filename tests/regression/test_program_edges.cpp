@@ -192,6 +192,12 @@ TEST_F(Edges, FilesThatMayNotGrowAreAnErrorThatNamesThem) {
                             "' run static.toml --out out --quiet");
   EXPECT_EQ(ended.code, 1);
   EXPECT_EQ(ended.error, "error: cannot write out/checkpoint.h5.part: File too large\n");
+  // Ranks share memory in files of their own, which MPI would wait for.
+  const Ended ranks = koshi("--version >/dev/null; ulimit -f 2000; '" + std::string(KOSHI_PROGRAM) +
+                            "' run static.toml --out several --quiet --ranks 2");
+  EXPECT_EQ(ranks.code, 2);
+  EXPECT_THAT(ranks.error, StartsWith("--ranks: error: files may have at most "));
+  EXPECT_FALSE(fs::exists(directory_ / "several"));
 }
 
 // What goes wrong in a library is said in this program's words.
