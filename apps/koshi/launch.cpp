@@ -101,10 +101,11 @@ void launch(int ranks, const std::vector<std::string>& arguments) {
   rlimit files{};
   getrlimit(RLIMIT_FSIZE, &files);
   if (files.rlim_cur < shared_file_bytes)
-    throw InputError(Place{"--ranks"},
-                     fmt::format("files may have at most {} bytes (ulimit -f); several ranks share files of more: allow "
-                                 "{}, or leave --ranks out",
-                                 files.rlim_cur, shared_file_bytes));
+    throw InputError(
+        Place{"--ranks"},
+        fmt::format("files may have at most {} bytes (ulimit -f); several ranks share files of more: allow "
+                    "{}, or leave --ranks out",
+                    files.rlim_cur, shared_file_bytes));
   set_environment(ranks);
   std::vector<std::string> command{"mpiexec", "-n", std::to_string(ranks), "/proc/self/exe"};
   std::vector<char> self(4096);
