@@ -42,6 +42,7 @@ PUBLIC = {
     "lattice.h": "lattice",
     "grid.h": "lattice",
     "field.h": "lattice",
+    "scan.h": "model",
     "springs.h": "material",
     "calibration.h": "material",
     "fracture.h": "material",

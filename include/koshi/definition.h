@@ -14,6 +14,7 @@
 #include "koshi/error.h"
 #include "koshi/fracture.h"
 #include "koshi/lattice.h"
+#include "koshi/scan.h"
 #include "koshi/springs.h"
 
 namespace koshi::model {
@@ -21,7 +22,7 @@ namespace koshi::model {
 /// [lattice]
 struct LatticeDefinition {
   lattice::CellType cell = lattice::CellType::cube_iii;   ///< unit cell
-  double spacing = 0;                                     ///< d [m], required
+  double spacing = 0;                                     ///< d [m], required; 0: of the image's voxels
   material::Sharing springs = material::Sharing::shared;  ///< shared between cells, or full
   /// Unset: bending-exact for shared Cube-III, isotropic for shared Cube-I and -II, paper for plain springs.
   std::optional<material::Calibration> calibration;
@@ -38,15 +39,18 @@ struct LatticeDefinition {
 struct BodyDefinition {
   Vec3 origin{};                               ///< lower corner [m]
   Vec3 size{};                                 ///< [m], multiples of the spacing; unset with an image
-  std::string material;                        ///< name of the cells' material; unset with an image
+  std::string material;                        ///< name of the cells' material; unset with an image's `materials`
   std::array<bool, 3> periodic{};              ///< opposite faces are joined
   std::string image;                           ///< file of cell values (.npy, .vti, .mha, .mhd, .nrrd); empty: none
   std::map<int, std::string> image_materials;  ///< image value -> material name or "void" (key `materials`)
+  std::optional<ScanDefinition> scan;          ///< how values become cells; unset: each value is a cell
   /// Material of each cell, x fastest, 0 = empty, k = materials[k - 1]; filled from the image, or by a program.
   std::vector<std::uint16_t> cells;
   std::string factor;  ///< file of factors 0 ... 1 on the cells' stiffness, in the formats of an image; empty: all 1
   /// Factor of each cell, x fastest; empty: all 1; filled from the file, or by a program. Shared springs only.
   std::vector<float> factors;
+  /// Share of its material's density in each cell, x fastest, 0 ... 1; empty: all 1; filled from the image.
+  std::vector<float> density_shares;
   bool operator==(const BodyDefinition&) const = default;
 };
 

@@ -53,6 +53,8 @@ class Body:
     """value of each cell: a file, or an array of whole numbers (nz, ny, nx)"""
     materials: Mapping[int, str] | None = None
     """material, or "void", of each value in the image"""
+    scan: Mapping[str, object] | None = None
+    """how the values of the image become cells: crop, axes, coarsen, thresholds, grey ..., and what a raw file holds"""
     factor: str | os.PathLike | np.ndarray | None = None
     """factor 0 ... 1 on the stiffness of each cell: a file, or an array (nz, ny, nx); default 1"""
     origin: Vector | None = None
@@ -298,6 +300,8 @@ def _definition(case: Case | str | os.PathLike, overrides: Sequence[str] = ()) -
     named = {}
     if isinstance(image, np.ndarray):
         _check_array("body.image", image, "biu", "whole numbers or bool")
+        if case.body.scan is not None:
+            raise InputError("body.scan: error: scan is for files; cut, turn and sort an array with numpy")
         named["image"] = "array.npy"
     if isinstance(factor, np.ndarray):
         _check_array("body.factor", factor, "biuf", "numbers")

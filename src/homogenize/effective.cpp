@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/exact_sum.h"
 #include "homogenize/bounds.h"
 #include "koshi/error.h"
 #include "statics/static_solver.h"
@@ -28,14 +29,18 @@ void count_phases(const model::Model& model, Effective& effective) {
   const model::SpringLattice& body = model.lattice;
   std::vector<std::int64_t> count(model.materials.size());
   lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) { ++count[body.cell.component(0)[n]]; });
+  // The masses of the nodes are those of their cells, partly filled ones too.
+  ExactSum mass;
+  lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) { mass += model.inertia.component(0)[n]; });
+  mass.sum_ranks(model.communicator);
   model.communicator.sum(count);
   const auto cells = static_cast<double>(body.grid.cell_count());
   for (std::size_t m = 0; m < count.size(); ++m) {
     if (count[m] == 0) continue;
     const double fraction = static_cast<double>(count[m]) / cells;
     effective.phases.push_back({static_cast<std::uint16_t>(m), fraction});
-    effective.density += fraction * model.materials[m].density;
   }
+  effective.density = mass.value() / (cells * std::pow(body.grid.d, 3));
 }
 
 }  // namespace

@@ -8,13 +8,13 @@
 #include <vtkUnsignedShortArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-#include <map>
 #include <memory>
-#include <set>
 
 #include "base/collective.h"
 #include "io/image.h"
+#include "io/scan_cells.h"
 #include "io/voxels/formats.h"
 #include "model/check.h"
 #include "model/regions.h"
@@ -34,28 +34,39 @@ void check_cubes(const VoxelImage& image) {
       side[0], side[1], side[2], side[0] / least, side[1] / least, side[2] / least));
 }
 
-std::string list_of(const std::set<double>& values) {
-  constexpr std::size_t most = 20;
-  std::string text;
-  for (const double value : values) text += fmt::format("{}{:.0f}", text.empty() ? "" : ", ", value);
-  return text + (values.size() > most ? ", ..." : "");
+// What the input says of a raw file.
+VoxelHeader raw_header(const model::ScanDefinition& scan) {
+  // In the order of ScanDefinition::Type.
+  using enum ValueType;
+  constexpr std::array types{int8, uint8, int16, uint16, int32, uint32, float32, float64};
+  VoxelHeader header;
+  for (std::size_t a = 0; a < 3; ++a) header.size[a] = static_cast<std::int64_t>((*scan.size)[a]);
+  header.type = types[static_cast<std::size_t>(scan.type)];
+  header.big_endian = scan.byte_order == model::ScanDefinition::ByteOrder::big;
+  return header;
 }
 
-CellImage read_image(const std::filesystem::path& file, const char* name, bool fractions) {
+CellImage read_image(const std::filesystem::path& file, const char* name, bool fractions,
+                     const std::optional<model::ScanDefinition>& scan) {
   const std::string format = file.extension().string();
   const bool tiff = format == ".tif" || format == ".tiff", nifti = format == ".nii" || format == ".gz";
-  const auto image = std::make_shared<VoxelImage>(format == ".vti"                         ? read_vti_image(file, name)
-                                                  : format == ".nrrd" || format == ".nhdr" ? read_nrrd(file)
-                                                  : format == ".npy"                       ? read_npy(file)
-                                                  : tiff                                   ? read_tiff(file)
-                                                  : nifti                                  ? read_nifti(file)
-                                                                                           : read_metaimage(file));
+  const auto image = std::make_shared<VoxelImage>(
+      format == ".vti"                         ? read_vti_image(file, name)
+      : format == ".nrrd" || format == ".nhdr" ? read_nrrd(file)
+      : format == ".npy"                       ? read_npy(file)
+      : tiff                                   ? read_tiff(file)
+      : nifti                                  ? read_nifti(file)
+      : format == ".raw" && scan ? read_raw(file, raw_header(*scan), static_cast<std::uint64_t>(scan->offset))
+                                 : read_metaimage(file));
   check_cubes(*image);
   if (!fractions && !is_whole(image->type))
     throw InputError(
-        fmt::format("holds values of the type {}, not whole numbers; convert it to uint8, say", name_of(image->type)));
+        fmt::format("holds values of the type {}, not whole numbers; convert it to uint8, say, or sort its values by "
+                    "scan.thresholds",
+                    name_of(image->type)));
   return {image->size, image->stride,
-          [image](std::int64_t i) { return value_at(image->bytes, image->type, static_cast<std::size_t>(i)); }};
+          [image](std::int64_t i) { return value_at(image->bytes, image->type, static_cast<std::size_t>(i)); },
+          image->voxel};
 }
 
 // Calls f(value) for every cell, x fastest.
@@ -69,47 +80,41 @@ void for_each_value(const CellImage& image, F&& f) {
 
 }  // namespace
 
-CellImage read_cell_image(const std::filesystem::path& file) { return read_image(file, "material", false); }
-CellImage read_factor_image(const std::filesystem::path& file) { return read_image(file, "factor", true); }
+CellImage read_cell_image(const std::filesystem::path& file, const std::optional<model::ScanDefinition>& scan) {
+  return read_image(file, "material", scan && !(scan->thresholds.empty() && scan->grey.empty()), scan);
+}
+CellImage read_factor_image(const std::filesystem::path& file) { return read_image(file, "factor", true, {}); }
 
 void set_cells(const CellImage& image, model::Definition& definition) {
   const model::Checker check(definition);
   model::BodyDefinition& body = definition.body;
+  ScanCells scan = cells_of(kept_part(image, definition), definition);
 
-  // The image decides the size, or fits the size given.
-  const double d = definition.lattice.spacing;
-  const Vec3 size{d * static_cast<double>(image.cells[0]), d * static_cast<double>(image.cells[1]),
-                  d * static_cast<double>(image.cells[2])};
+  // The image decides the spacing where it is asked to.
+  double& d = definition.lattice.spacing;
+  if (d == 0) {
+    if (!image.voxel)
+      check.fail("lattice.spacing",
+                 "the image does not say how large its voxels are; give the spacing, such as spacing = \"10 um\"");
+    d = (*image.voxel)[0] * *body.scan->unit * body.scan->coarsen;
+    check.within(model::ranges::spacing, "lattice.spacing", d);
+    body.scan->unit.reset();
+  }
+
+  // It decides the size, too, or fits the size given.
+  const Int3& cells = scan.cells;
+  const Vec3 size{d * static_cast<double>(cells[0]), d * static_cast<double>(cells[1]),
+                  d * static_cast<double>(cells[2])};
   if (body.size == Vec3{}) body.size = size;
   if (norm(body.size - size) > 1e-6 * d)
     check.fail(
         "body.size",
         fmt::format("the image has {} x {} x {} cells and hence the size {:.9g} x {:.9g} x {:.9g} m, but the size "
                     "is {:.9g} x {:.9g} x {:.9g} m; leave size out",
-                    image.cells[0], image.cells[1], image.cells[2], size[0], size[1], size[2], body.size[0],
-                    body.size[1], body.size[2]));
-
-  std::map<double, std::uint16_t> material_of;
-  for (const auto& [value, name] : body.image_materials) {
-    std::size_t index = 0;
-    while (index < definition.materials.size() && definition.materials[index].name != name) ++index;
-    material_of[value] = name == "void" ? 0 : static_cast<std::uint16_t>(index + 1);
-  }
-
-  // Neighbours mostly have the same value, so the last one found is tried first.
-  std::set<double> unknown;
-  auto last = material_of.end();
-  body.cells.clear();
-  body.cells.reserve(static_cast<std::size_t>(image.cells[0] * image.cells[1] * image.cells[2]));
-  for_each_value(image, [&](double value) {
-    if (last == material_of.end() || last->first != value) last = material_of.find(value);
-    if (last == material_of.end() && unknown.size() < 21) unknown.insert(value);
-    body.cells.push_back(last == material_of.end() ? 0 : last->second);
-  });
-  if (!unknown.empty())
-    check.fail("body.materials",
-               fmt::format("the image also has the value{} {}; name a material, or \"void\", for each",
-                           unknown.size() == 1 ? "" : "s", list_of(unknown)));
+                    cells[0], cells[1], cells[2], size[0], size[1], size[2], body.size[0], body.size[1], body.size[2]));
+  body.cells = std::move(scan.material);
+  body.factors = std::move(scan.factor);
+  body.density_shares = std::move(scan.density_share);
 }
 
 void set_factors(const CellImage& image, model::Definition& definition) {
@@ -119,9 +124,9 @@ void set_factors(const CellImage& image, model::Definition& definition) {
         .fail("body.factor", fmt::format("there are factors for {} x {} x {} cells, but the body has {} x {} x {}",
                                          image.cells[0], image.cells[1], image.cells[2], cells[0], cells[1], cells[2]));
   std::vector<float>& factors = definition.body.factors;
-  factors.clear();
-  factors.reserve(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]));
-  for_each_value(image, [&](double value) { factors.push_back(static_cast<float>(value)); });
+  if (factors.empty()) factors.assign(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]), 1);
+  auto factor = factors.begin();
+  for_each_value(image, [&](double value) { *factor++ *= static_cast<float>(value); });
 }
 
 namespace {

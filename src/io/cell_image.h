@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "koshi/communicator.h"
 #include "koshi/definition.h"
@@ -15,21 +16,24 @@ struct CellImage {
   Int3 cells{};
   Int3 stride{};
   std::function<double(std::int64_t)> value;
+  std::optional<Vec3> voxel{};  ///< sides of a voxel in the file's unit of length, where the file has them
 };
 
-/// Reads .npy (axes [z][y][x]), .vti (values on cells), .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif or .tiff (values
-/// of voxels): whole numbers or bool, as materials have. Voxels must be cubes; their size and the origin in the file do
-/// not count. Errors: InputError without a place.
-CellImage read_cell_image(const std::filesystem::path& file);
+/// Reads .npy (axes [z][y][x]), .vti (values on cells), .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif, .tiff or .raw
+/// (values of voxels, a raw file as the scan says): whole numbers or bool, as materials have, and fractions where the
+/// scan sorts them. Voxels must be cubes; the origin in the file does not count. Errors: InputError without a place.
+CellImage read_cell_image(const std::filesystem::path& file, const std::optional<model::ScanDefinition>& scan = {});
 
 /// The same with whole numbers or fractions, as factors have.
 CellImage read_factor_image(const std::filesystem::path& file);
 
-/// Sets body.cells by body.image_materials, and body.size if it is unset. Errors: InputError at the image, its
-/// materials or the size.
+/// Sets body.cells by body.scan and body.image_materials, factors and shares of density where cells are partly filled,
+/// the spacing where it is that of the image, and body.size if it is unset. Errors: InputError at the image, its
+/// materials, scan or size.
 void set_cells(const CellImage& image, model::Definition& definition);
 
-/// Sets body.factors; body.size must be known. Errors: InputError at body.factor.
+/// Sets body.factors, or multiplies those that the image set; body.size must be known. Errors: InputError at
+/// body.factor.
 void set_factors(const CellImage& image, model::Definition& definition);
 
 /// The definition with cells and factors that a program gave in `directory`/cells.vti and factors.vti, so that its

@@ -35,7 +35,11 @@ auto load(const model::Definition& definition, const std::string& key, const std
 model::Definition load_files(model::Definition definition) {
   model::check(definition);
   if (const std::string& image = definition.body.image; !image.empty())
-    set_cells(load(definition, "body.image", image, read_cell_image), definition);
+    set_cells(load(definition, "body.image", image,
+                   [&](const auto& path) { return read_cell_image(path, definition.body.scan); }),
+              definition);
+  else if (!definition.body.factor.empty())
+    definition.body.factors.clear();
   if (const std::string& factor = definition.body.factor; !factor.empty())
     set_factors(load(definition, "body.factor", factor, read_factor_image), definition);
   for (std::size_t r = 0; r < definition.regions.size(); ++r) {

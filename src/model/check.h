@@ -50,6 +50,7 @@ class Checker {
 };
 
 void check_body(const Checker& check);        ///< lattice, body, materials, regions
+void check_scan(const Checker& check);        ///< how an image becomes cells
 void check_conditions(const Checker& check);  ///< boundaries, loads, probes
 void check_run(const Checker& check);         ///< analysis, output
 

@@ -15,7 +15,8 @@ namespace {
 
 void check_lattice(const Checker& check) {
   const LatticeDefinition& lattice = check.definition.lattice;
-  check.within(ranges::spacing, "lattice.spacing", lattice.spacing);
+  // 0: that of the image, see check_scan().
+  if (lattice.spacing != 0) check.within(ranges::spacing, "lattice.spacing", lattice.spacing);
 
   const material::Calibration calibration = check.definition.calibration();
   const bool any_cell = calibration == material::Calibration::isotropic || calibration == material::Calibration::paper;
@@ -123,8 +124,12 @@ void check_material_name(const Checker& check, const std::string& path, const st
 
 // Formats of files with a value for each cell.
 void check_cell_file(const Checker& check, const std::string& path, const std::string& what, const std::string& file) {
-  const std::vector<std::string> formats{".npy",  ".vti", ".mha",  ".mhd", ".nrrd",
-                                         ".nhdr", ".tif", ".tiff", ".nii", ".nii.gz"};
+  const std::vector<std::string> formats{".npy", ".vti",  ".mha", ".mhd",    ".nrrd", ".nhdr",
+                                         ".tif", ".tiff", ".nii", ".nii.gz", ".raw"};
+  if (file.ends_with(".h5") || file.ends_with(".hdf5"))
+    check.fail(path, fmt::format("{} \"{}\" is an HDF5 file, which Koshi does not read; save its data set by itself, "
+                                 "such as with numpy.save(\"scan.npy\", h5py.File(\"{}\")[\"name\"])",
+                                 what, file, file));
   if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return file.ends_with(suffix); }))
     check.fail(path, fmt::format("{} \"{}\" is in no known format; known: {}", what, file, quoted_list(formats)));
 }
@@ -149,7 +154,9 @@ void check_box_of_cells(const Checker& check) {
     return;
   }
   check_cell_file(check, "body.image", "the image", body.image);
-  if (body.image_materials.empty())
+  const bool by_density = body.scan && !body.scan->grey.empty();
+  if (by_density) check_material_name(check, "body.material", body.material);
+  if (body.image_materials.empty() && !by_density)
     check.fail("body", "an image needs materials, such as materials = { 0 = \"void\", 1 = \"rock\" }");
   for (const auto& [value, material] : body.image_materials)
     check_material_name(check, fmt::format("body.materials.{}", value), material);
@@ -193,6 +200,7 @@ void check_region(const Checker& check, const std::string& path, const RegionDef
 void check_body(const Checker& check) {
   check_lattice(check);
   check_materials(check);
+  check_scan(check);
   check_box_of_cells(check);
   for (std::size_t i = 0; i < check.definition.regions.size(); ++i)
     check_region(check, fmt::format("region[{}]", i), check.definition.regions[i]);

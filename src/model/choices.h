@@ -60,6 +60,22 @@ inline constexpr auto choices<RegionDefinition::Shape> = std::to_array<Choice<Re
 });
 
 template <>
+inline constexpr auto choices<ScanDefinition::Type> = std::to_array<Choice<ScanDefinition::Type>>({
+    {"int8", ScanDefinition::Type::int8},
+    {"uint8", ScanDefinition::Type::uint8},
+    {"int16", ScanDefinition::Type::int16},
+    {"uint16", ScanDefinition::Type::uint16},
+    {"int32", ScanDefinition::Type::int32},
+    {"uint32", ScanDefinition::Type::uint32},
+    {"float32", ScanDefinition::Type::float32},
+    {"float64", ScanDefinition::Type::float64},
+});
+
+template <>
+inline constexpr auto choices<ScanDefinition::ByteOrder> = std::to_array<Choice<ScanDefinition::ByteOrder>>(
+    {{"little", ScanDefinition::ByteOrder::little}, {"big", ScanDefinition::ByteOrder::big}});
+
+template <>
 inline constexpr auto choices<Face> = std::to_array<Choice<Face>>({
     {"x-min", Face::x_min},
     {"x-max", Face::x_max},

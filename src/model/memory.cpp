@@ -138,8 +138,9 @@ double predicted_memory(const Definition& definition, int ranks) {
   const lattice::Partition partition = lattice::make_partition(grid, ranks);
   double size = 0;
   for (int rank = 0; rank < ranks; ++rank) size += static_cast<double>(partition.layout(rank).size());
-  const double image = 2.0 * static_cast<double>(definition.body.cells.size()) +
-                       4.0 * static_cast<double>(definition.body.factors.size());
+  const double image =
+      2.0 * static_cast<double>(definition.body.cells.size()) +
+      4.0 * static_cast<double>(definition.body.factors.size() + definition.body.density_shares.size());
   return image * ranks + bytes * size + sample;
 }
 

@@ -54,14 +54,17 @@ lattice::Field<double> make_inertia(const Model& model) {
   lattice::Field<double> inertia(layout, rotational ? 2 : 1);
   const std::uint16_t* cell = model.lattice.cell.component(0);
   const double eighth = std::pow(model.lattice.grid.d, 3) / 8;
-  lattice::for_each_owned(layout, [&](auto, auto, auto, auto n) {
+  const auto share_of = density_share_of_cells(model.definition, model.lattice.grid);
+  lattice::for_each_owned(layout, [&](auto i, auto j, auto k, auto n) {
     double mass = 0;
     int cells = 0;
     for (int corner = 0; corner < 8; ++corner) {
-      const std::uint16_t m = cell[n - layout.offset({corner & 1, corner >> 1 & 1, corner >> 2})];
+      const std::array<int, 3> back{corner & 1, corner >> 1 & 1, corner >> 2};
+      const std::uint16_t m = cell[n - layout.offset(back)];
       if (m == 0) continue;
       ++cells;
-      mass += model.materials[m].density * eighth;
+      const double share = share_of ? share_of(layout.global({i - back[0], j - back[1], k - back[2]})) : 1;
+      mass += share * model.materials[m].density * eighth;
     }
     inertia.component(0)[n] = mass;
     if (rotational) {

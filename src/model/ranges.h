@@ -49,6 +49,15 @@ inline constexpr Range size{.unit = "m", .least = 1e-12, .most = 1e12};
 inline constexpr Range position = symmetric("m", 1e12);
 inline constexpr Range direction = symmetric("", 1e9, 1e-9);
 
+// Images.
+inline constexpr Range voxel_count{.least = 1, .most = 1e9};
+inline constexpr Range voxel{.least = 0, .most = 1e9};
+inline constexpr Range bytes{.least = 0, .most = 2e9};
+inline constexpr Range coarsening{.least = 1, .most = 1000};
+inline constexpr Range grey = symmetric("", 1e18);
+inline constexpr Range scan_density{.unit = "kg/m^3", .least = 0, .most = 1e18};
+inline constexpr Range exponent{.least = 0, .most = 10, .open_below = true};
+
 // Materials.
 inline constexpr Range youngs_modulus{.unit = "Pa", .least = 1e-9, .most = 1e18};
 inline constexpr Range poissons_ratio{.least = -1,

@@ -137,4 +137,18 @@ std::function<float(const Int3&)> factor_of_cells(const Definition& definition, 
   };
 }
 
+std::function<double(Int3)> density_share_of_cells(const Definition& definition, const lattice::Grid& grid) {
+  const std::vector<float>& shares = definition.body.density_shares;
+  if (shares.empty()) return nullptr;
+  const Int3 n = grid.cells;
+  if (static_cast<std::int64_t>(shares.size()) != n[0] * n[1] * n[2])
+    Checker(definition)
+        .fail("body.image", fmt::format("there are densities for {} cells, but the body has {} x {} x {}",
+                                        shares.size(), n[0], n[1], n[2]));
+  return [&shares, n](Int3 cell) {
+    for (std::size_t a = 0; a < 3; ++a) cell[a] = (cell[a] + n[a]) % n[a];
+    return static_cast<double>(shares[static_cast<std::size_t>(cell[0] + n[0] * (cell[1] + n[1] * cell[2]))]);
+  };
+}
+
 }  // namespace koshi::model

@@ -23,4 +23,9 @@ std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& de
 /// not one for each cell, or one outside 0 ... 1. The definition must outlive the function.
 std::function<float(const Int3&)> factor_of_cells(const Definition& definition, const lattice::Grid& grid);
 
+/// Share of its material's density that each cell has, by its global indices; those across a period are brought back.
+/// Null where the definition gives none. Errors: InputError when there is not one for each cell. The definition must
+/// outlive the function.
+std::function<double(Int3)> density_share_of_cells(const Definition& definition, const lattice::Grid& grid);
+
 }  // namespace koshi::model

@@ -157,7 +157,7 @@ format = "vtk")",
        R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"]
 position = [0, 0, 0]
 )",
-       R"(7:1: error: unknown key "position" in [body]; known: "origin", "size", "material", "periodic", "image", "materials", "factor")"},
+       R"(7:1: error: unknown key "position" in [body]; known: "origin", "size", "material", "periodic", "image", "materials", "scan", "factor")"},
   };
   ASSERT_EQ(inputs.size(), 26u);
   expect_messages(inputs);
@@ -339,7 +339,7 @@ image = "scan.vti"
        R"(material = "rock"
 materials = { 1 = "rock" }
 )",
-       R"(8:1: error: "materials" has no meaning here; it goes with a body with an image)"},
+       R"(8:1: error: "materials" has no meaning here; it goes with a body with an image and without scan.grey)"},
       {R"(displacement = { z = "-0.1 mm" }
 )",
        R"(ramp = "1 s"

@@ -50,6 +50,14 @@ const std::map<std::string, std::string>& places() {
       {"lattice.spacing", "lattice.spacing"},
       {"body.origin", "body.origin.1"},
       {"body.size", "body.size.1"},
+      {"body.scan.size", "body.scan.size"},
+      {"body.scan.unit", "body.scan.unit"},
+      {"body.scan.crop.min", "body.scan.crop"},
+      {"body.scan.crop.max", "body.scan.crop"},
+      {"body.scan.thresholds", "body.scan.thresholds"},
+      {"body.scan.grey", "body.scan.grey"},
+      {"body.scan.density", "body.scan.density"},
+      {"body.scan.exponent", "body.scan.exponent"},
       {"material.youngs_modulus", "material.soft.youngs_modulus"},
       {"material.poissons_ratio", "material.soft.poissons_ratio"},
       {"material.density", "material.soft.density"},
@@ -124,7 +132,10 @@ std::string message_of(const std::string& name, const std::string& number) {
   std::string value = number;
   // What the case does not give by itself is given whole.
   if (path.ends_with(".point") || path.ends_with(".center")) value = fmt::format("[0, {}, 0]", number);
-  if (path.ends_with(".box"))
+  if (path == "body.scan.size") value = fmt::format("[1, {}, 1]", number);
+  if (path.ends_with(".thresholds") || path.ends_with(".grey") || path.ends_with(".scan.density"))
+    value = fmt::format("[{}]", number);
+  if (path.ends_with(".box") || path.ends_with(".crop"))
     value = name.ends_with("min") ? fmt::format("{{ min = [0, 0, {}], max = [1, 1, 1] }}", number)
                                   : fmt::format("{{ min = [0, 0, 0], max = [1, 1, {}] }}", number);
   std::vector<std::string> overrides;
@@ -185,8 +196,8 @@ TEST(Ranges, EveryNumberIsKeptToThem) {
     EXPECT_THAT(message_of(name, "\"1e400\""), HasSubstr("is out of the range of numbers")) << name;
     ++count;
   }
-  EXPECT_EQ(count, 66);
-  EXPECT_EQ(places().size(), 66u);
+  EXPECT_EQ(count, 74);
+  EXPECT_EQ(places().size(), 74u);
 }
 
 // The unit of a range is the one in which the reader gives its values.
@@ -206,11 +217,12 @@ int check_units() {
 
 TEST(Ranges, HaveTheUnitOfTheirKey) {
   using namespace model;
-  EXPECT_EQ(check_units<LatticeDefinition>() + check_units<BodyDefinition>() + check_units<MaterialDefinition>() +
-                check_units<RegionDefinition>() + check_units<BoundaryDefinition>() + check_units<LoadDefinition>() +
-                check_units<AnalysisDefinition>() + check_units<DampingDefinition>() + check_units<ProbeDefinition>() +
-                check_units<OutputDefinition>() + check_units<material::Fracture>(),
-            1 + 2 + 3 + 5 + 9 + 7 + 6 + 6 + 2 + 3 + 4);
+  EXPECT_EQ(check_units<LatticeDefinition>() + check_units<BodyDefinition>() + check_units<ScanDefinition>() +
+                check_units<MaterialDefinition>() + check_units<RegionDefinition>() +
+                check_units<BoundaryDefinition>() + check_units<LoadDefinition>() + check_units<AnalysisDefinition>() +
+                check_units<DampingDefinition>() + check_units<ProbeDefinition>() + check_units<OutputDefinition>() +
+                check_units<material::Fracture>(),
+            1 + 2 + 9 + 3 + 5 + 9 + 7 + 6 + 6 + 2 + 3 + 4);
 }
 
 // A fracture with nothing wrong but what it is given.

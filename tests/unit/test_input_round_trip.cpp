@@ -112,6 +112,9 @@ TEST(ResolvedInput, EveryKeySurvives) {
   expect_survival(right_cases()[0], "analysis.type=quasi-static");
   expect_survival(right_cases()[5], "body.image=/b.npy");
   expect_survival(right_cases()[5], "body.materials.-7=void");
+  for (const char* change : {"body.scan.crop={ min = [0, 0, 1], max = [9, 9, 9] }", "body.scan.axes=['z', '-y', 'x']",
+                             "body.scan.coarsen=3", "body.scan.thresholds=[1, 2.5]"})
+    expect_survival(right_cases()[5], change);
   expect_survival(right_cases()[5], "analysis.damping.rate=3");
 }
 

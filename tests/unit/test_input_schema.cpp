@@ -33,6 +33,7 @@ std::map<std::string, std::set<std::string>> schema_keys() {
   }
   result["fracture"] =
       keys(schema.at("properties").at("material").at("additionalProperties").at("properties").at("fracture"));
+  result["scan"] = keys(schema.at("properties").at("body").at("properties").at("scan"));
   result["damping"] = keys(schema.at("properties").at("analysis").at("properties").at("damping"));
   return result;
 }
@@ -58,6 +59,7 @@ TEST(Schema, ListsTheKeysOfTheReader) {
       {"", ""},
       {"lattice", "lattice."},
       {"body", "body."},
+      {"scan", "body.scan."},
       {"material", "material.rock."},
       {"fracture", "material.rock.fracture."},
       {"region", "region.0."},
@@ -74,7 +76,7 @@ TEST(Schema, ListsTheKeysOfTheReader) {
     EXPECT_EQ(schema.at(table), known_keys(path)) << table;
     count += schema.at(table).size();
   }
-  EXPECT_EQ(count, 10u + 7 + 7 + 4 + 7 + 12 + 11 + 10 + 11 + 3 + 7 + 6);
+  EXPECT_EQ(count, 10u + 7 + 8 + 12 + 4 + 7 + 12 + 11 + 10 + 11 + 3 + 7 + 6);
 }
 
 TEST(Schema, TellsTypeDefaultAndMeaning) {
@@ -85,7 +87,7 @@ TEST(Schema, TellsTypeDefaultAndMeaning) {
   EXPECT_EQ(lattice.at("properties").at("spacing"),
             Json::parse(
                 R"({"type": ["number", "string"], "unit": "m", "minimum": 1e-12, "maximum": 1e9, "examples": ["0.2 cm"],
-      "description": "Side d of a cell."})"));
+      "description": "Side d of a cell; \"image\": of the voxels of the image, in its body.scan.unit."})"));
   EXPECT_EQ(lattice.at("properties").at("springs"), Json::parse(R"({"enum": ["shared", "plain"], "default": "shared",
       "description": "Springs belong to cells (shared), or every bond carries its full stiffness."})"));
   const Json& boundary = schema.at("properties").at("boundary").at("items").at("properties");
@@ -118,7 +120,7 @@ TEST(Schema, TellsTypeDefaultAndMeaning) {
       ++described;
     }
   }
-  EXPECT_EQ(described, 7 + 7 + 12 + 11 + 10 + 11 + 7 + 6);
+  EXPECT_EQ(described, 7 + 8 + 12 + 11 + 10 + 11 + 7 + 6);
 }
 
 // The example of each key is what its reader takes, and sets something.
@@ -138,12 +140,13 @@ int read_examples() {
 
 TEST(Schema, ExamplesAreRight) {
   using namespace model;
-  const int count =
-      read_examples<Definition>() + read_examples<LatticeDefinition>() + read_examples<BodyDefinition>() +
-      read_examples<MaterialDefinition>() + read_examples<RegionDefinition>() + read_examples<BoundaryDefinition>() +
-      read_examples<LoadDefinition>() + read_examples<AnalysisDefinition>() + read_examples<DampingDefinition>() +
-      read_examples<ProbeDefinition>() + read_examples<OutputDefinition>() + read_examples<material::Fracture>();
-  EXPECT_EQ(count, 1 + 3 + 7 + 4 + 5 + 11 + 10 + 8 + 7 + 1 + 4 + 5);
+  const int count = read_examples<Definition>() + read_examples<LatticeDefinition>() + read_examples<BodyDefinition>() +
+                    read_examples<ScanDefinition>() + read_examples<MaterialDefinition>() +
+                    read_examples<RegionDefinition>() + read_examples<BoundaryDefinition>() +
+                    read_examples<LoadDefinition>() + read_examples<AnalysisDefinition>() +
+                    read_examples<DampingDefinition>() + read_examples<ProbeDefinition>() +
+                    read_examples<OutputDefinition>() + read_examples<material::Fracture>();
+  EXPECT_EQ(count, 1 + 3 + 8 + 10 + 4 + 5 + 11 + 10 + 8 + 7 + 1 + 4 + 5);
 }
 
 // A key without a list of words, a switch or a nested table shows an example.
@@ -160,7 +163,7 @@ TEST(Schema, EveryValueHasAnExample) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 3 + 7 + 4 + 11 + 10 + 9 + 8 + 3 + 5);
+  EXPECT_EQ(count, 3 + 8 + 4 + 11 + 10 + 9 + 8 + 3 + 5);
 }
 
 // Of some keys exactly one must be given: the schema says so, and the check refuses two of them, and none.

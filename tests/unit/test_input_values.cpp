@@ -65,7 +65,7 @@ material = "rock"
        R"(image = "scan.png"
 materials = { 0 = "void", 1 = "rock" }
 )",
-       R"(6:9: error: the image "scan.png" is in no known format; known: ".npy", ".vti", ".mha", ".mhd", ".nrrd", ".nhdr", ".tif", ".tiff", ".nii", ".nii.gz")"},
+       R"(6:9: error: the image "scan.png" is in no known format; known: ".npy", ".vti", ".mha", ".mhd", ".nrrd", ".nhdr", ".tif", ".tiff", ".nii", ".nii.gz", ".raw")"},
       {R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"]
 material = "rock"
 )",

@@ -63,6 +63,7 @@ Form<std::array<bool, 6>> form(Tag<std::array<bool, 6>>);
 Form<std::array<std::optional<double>, 6>> form(Tag<std::array<std::optional<double>, 6>>);
 /// Table of axes.
 Form<std::array<std::optional<double>, 3>> form(Tag<std::array<std::optional<double>, 3>>);
+Form<std::vector<double>> form(Tag<std::vector<double>>);
 /// {min, max}
 Form<std::pair<Vec3, Vec3>> form(Tag<std::pair<Vec3, Vec3>>);
 Form<model::History> form(Tag<model::History>);

@@ -37,6 +37,20 @@ struct Key : KeyInfo {
 
   bool applies_to(const S& s) const { return !applies || applies(s); }
 
+  /// A word that stands for a value of its own.
+  Key or_word(const std::string& word, void (*set)(S&), bool (*is_set)(const S&)) && {
+    read = [word, set, other = std::move(read)](const Value& value, const Spec& about, S& s) {
+      if (value.text() != nullptr && *value.text() == word)
+        set(s);
+      else
+        other(value, about, s);
+    };
+    write = [word, is_set, other = std::move(write)](const S& s, const Spec& about) {
+      return is_set(s) ? toml_text(word) : other(s, about);
+    };
+    return std::move(*this);
+  }
+
   /// Restricts the key to some states of the struct.
   Key only_for(const std::string& text, const std::vector<std::string>& keys,
                std::function<bool(const S&)> predicate) && {
@@ -88,6 +102,7 @@ Key<S> key(const std::string& name, Member member, const std::string& descriptio
 const std::vector<Key<model::Definition>>& keys_of(Tag<model::Definition>);
 const std::vector<Key<model::LatticeDefinition>>& keys_of(Tag<model::LatticeDefinition>);
 const std::vector<Key<model::BodyDefinition>>& keys_of(Tag<model::BodyDefinition>);
+const std::vector<Key<model::ScanDefinition>>& keys_of(Tag<model::ScanDefinition>);
 const std::vector<Key<model::MaterialDefinition>>& keys_of(Tag<model::MaterialDefinition>);
 const std::vector<Key<material::Fracture>>& keys_of(Tag<material::Fracture>);
 const std::vector<Key<model::RegionDefinition>>& keys_of(Tag<model::RegionDefinition>);

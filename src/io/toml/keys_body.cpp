@@ -41,8 +41,10 @@ const std::vector<Key<LatticeDefinition>>& keys_of(Tag<LatticeDefinition>) {
   };
   static const std::vector<Key<D>> keys{
       key<D>("cell", &D::cell, "Unit cell: edges, face diagonals (II, III), body diagonals (III)."),
-      key<D>("spacing", &D::spacing, "Side d of a cell.",
-             {.dimension = Dimension::length, .required = true, .range = ranges::spacing, .example = R"("0.2 cm")"}),
+      key<D>("spacing", &D::spacing, "Side d of a cell; \"image\": of the voxels of the image, in its body.scan.unit.",
+             {.dimension = Dimension::length, .required = true, .range = ranges::spacing, .example = R"("0.2 cm")"})
+          .or_word(
+              "image", [](D& lattice) { lattice.spacing = 0; }, [](const D& lattice) { return lattice.spacing == 0; }),
       key<D>("springs", &D::springs, "Springs belong to cells (shared), or every bond carries its full stiffness."),
       key<D>("calibration", &D::calibration,
              "How E and nu become springs; unset: bending-exact for shared Cube-III, isotropic for shared Cube-I and "
@@ -62,7 +64,7 @@ const std::vector<Key<LatticeDefinition>>& keys_of(Tag<LatticeDefinition>) {
 const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
   using D = BodyDefinition;
   const auto plain = [](const D& body) { return body.image.empty(); };
-  const auto imaged = [](const D& body) { return !body.image.empty(); };
+  const auto dense = [](const D& body) { return body.scan && !body.scan->grey.empty(); };
   static const std::vector<Key<D>> keys{
       key<D>("origin", &D::origin, "Lower corner of the box.",
              {.dimension = Dimension::length, .range = ranges::position, .example = R"(["0 mm", "0 mm", "-5 mm"])"}),
@@ -74,15 +76,20 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
           .only_for("a body without an image", {"image"}, plain),
       key<D>("material", &D::material, "Material of the cells, or \"void\".",
              {.required = true, .example = R"("rock")"})
-          .only_for("a body without an image", {"image"}, plain),
+          .only_for("a body without an image, or with scan.grey", {"image", "scan"},
+                    [=](const D& body) { return plain(body) || dense(body); }),
       key<D>("periodic", &D::periodic, "Opposite faces across x, y, z are joined.", {.example = R"(["x", "y"])"}),
-      key<D>("image", &D::image,
-             "File of cell values, one a cell (.npy, .vti, .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif, .tiff); "
-             "\"*\" in the name of a TIFF file stands for the number of a slice.",
-             {.example = R"("scan.nrrd")"}),
+      key<D>(
+          "image", &D::image,
+          "File of cell values, one a cell (.npy, .vti, .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif, .tiff, .raw); "
+          "\"*\" in the name of a TIFF file stands for the number of a slice.",
+          {.example = R"("scan.nrrd")"}),
       key<D>("materials", &D::image_materials, "Material, or \"void\", of each value in the image.",
              {.required = true, .example = R"({0 = "void", 1 = "rock"})"})
-          .only_for("a body with an image", {"image"}, imaged),
+          .only_for("a body with an image and without scan.grey", {"image", "scan"},
+                    [=](const D& body) { return !plain(body) && !dense(body); }),
+      key<D>("scan", &D::scan, "How the values of the image become cells; unset: each value is a cell.",
+             {.title = "scan", .example = R"({coarsen = 2, thresholds = [80, 160]})"}),
       key<D>("factor", &D::factor,
              "File of factors, 0 to 1, on the stiffness of each cell (.npy, .vti, .mha, .mhd, .nrrd); unset: 1.",
              {.example = R"("damage.npy")"}),

@@ -25,6 +25,9 @@ VoxelImage read_nifti(const std::filesystem::path& file);
 /// is one, and none may be missing.
 VoxelImage read_tiff(const std::filesystem::path& file);
 
+/// Values from this byte on to the end of the file.
+VoxelImage read_raw(const std::filesystem::path& file, const VoxelHeader& header, std::uint64_t offset);
+
 /// VTK XML image (.vti): the array of this name on cells, or the only one.
 VoxelImage read_vti_image(const std::filesystem::path& file, const std::string& name);
 
