@@ -1,7 +1,9 @@
 #include <CLI/CLI.hpp>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <new>
 
@@ -47,9 +49,9 @@ void check_ranks(model::Definition definition, int ranks) {
 }
 
 // What a command does with a case, on all ranks.
-using Work = void (*)(const model::Definition&, const driver::RunOptions&, const Communicator&);
+using Work = std::function<void(const model::Definition&, const driver::RunOptions&, const Communicator&)>;
 
-void run(const Options& options, const Arguments& arguments, Work work) {
+void run(const Options& options, const Arguments& arguments, const Work& work) {
   // Read first: wrong input is reported once, and without starting ranks.
   const model::Definition definition = io::read_case(options.file, options.overrides);
   if (options.ranks > 1 && !is_launched()) {
@@ -99,9 +101,24 @@ void add_run_command(CLI::App& app, const Arguments& arguments, const Arguments&
 
 void add_homogenize_command(CLI::App& app, const Arguments& arguments, const Arguments& petsc) {
   CLI::App* command = app.add_subcommand(
-      "homogenize", "Effective stiffness of a case periodic in x, y and z; PETSc options may follow after --");
+      "homogenize", "Effective stiffness of a box of cells, periodic or not; PETSc options may follow after --");
   const auto options = add_options(*command, petsc, false);
-  command->callback([options, &arguments] { run(*options, arguments, driver::homogenize); });
+  const auto how = std::make_shared<driver::HomogenizeOptions>();
+  const std::map<std::string, homogenize::Boundary> words{{"periodic", homogenize::Boundary::periodic},
+                                                          {"displacement", homogenize::Boundary::displacement},
+                                                          {"traction", homogenize::Boundary::traction},
+                                                          {"mixed", homogenize::Boundary::mixed}};
+  command->add_option("--boundary", how->boundary, "periodic (default), displacement, traction or mixed")
+      ->transform(CLI::CheckedTransformer(words))
+      ->type_name("WORD");
+  command->add_flag("--coarser", how->coarser, "Also with cells of twice the side, for the error of the cells");
+  command->add_option("--boxes", how->boxes, "Random boxes of each size, for the scatter of smaller samples")
+      ->check(CLI::Range(0, 10000));
+  command->callback([options, how, &arguments] {
+    run(*options, arguments, [how](const auto& definition, const auto& run_options, const Communicator& world) {
+      driver::homogenize(definition, run_options, *how, world);
+    });
+  });
 }
 
 void add_check_command(CLI::App& app) {

@@ -7,6 +7,7 @@
 
 #include "koshi/communicator.h"
 #include "koshi/definition.h"
+#include "koshi/homogenize.h"
 
 namespace koshi::driver {
 
@@ -22,11 +23,19 @@ struct RunOptions {
 /// input is wrong, RunError when the run fails.
 void run(const model::Definition& definition, const RunOptions& options, const Communicator& communicator);
 
+/// What `koshi homogenize` is told besides its case.
+struct HomogenizeOptions {
+  homogenize::Boundary boundary = homogenize::Boundary::periodic;  ///< of the six load cases
+  bool coarser = false;                                            ///< also with cells of twice the side
+  int boxes = 0;  ///< random boxes of each size; those of a periodic body are loaded between smooth plates
+};
+
 /// What `koshi homogenize` does: computes the effective stiffness of a periodic case and writes `stiffness.json`,
-/// `stiffness.csv` and `resolved.toml` into the output directory (collective). The tolerance is that of the
-/// case's analysis. Errors as run(); a body that is not periodic in x, y and z, a
-/// case with loads or boundaries, and plain springs are wrong input.
-void homogenize(const model::Definition& definition, const RunOptions& options, const Communicator& communicator);
+/// `stiffness.csv`, `directions.csv`, `resolved.toml` and, where they are asked for, `boxes.csv` and `report.html` into
+/// the output directory (collective). The tolerance is that of the case's analysis. Errors as run(); a body that is not
+/// periodic in x, y and z where the boundary is, a case with loads or boundaries, and plain springs are wrong input.
+void homogenize(const model::Definition& definition, const RunOptions& options, const HomogenizeOptions& how,
+                const Communicator& communicator);
 
 /// What `koshi check` prints: the resolved input, springs and what they give, sizes, memory, stable step, estimated
 /// time.

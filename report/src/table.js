@@ -6,7 +6,7 @@ import { labelled, magnitudeOf, number, prefixed, quantity, unitText } from "./f
 const NOISE = 1e-9;
 
 /**
- * @param {object} table {title?, columns: [{name, unit?, decimals?}], rows: [[…]], note?}; cells are numbers, texts, {value, unit}
+ * @param {object} table {title?, columns: [{name, unit?, decimals?}], rows: [[…]], heat?, note?}; cells are numbers, texts, {value, unit}
  *                       or null
  * @returns {HTMLElement|null} null when there is no row
  */
@@ -20,7 +20,8 @@ export function table(block) {
   });
   const head = columns.map(({ name, unit, numeric }) =>
     element("th", { scope: "col", class: numeric ? "number" : null }, ...subscripted(labelled(name, unit))));
-  const body = block.rows.map((row) => element("tr", {}, ...row.map((value, i) => cell(value, columns[i]))));
+  const strength = block.heat ? magnitudeOf(numbers.flat()) : 0;
+  const body = block.rows.map((row) => element("tr", {}, ...row.map((value, i) => cell(value, columns[i], strength))));
   return element("div", { class: block.broad || columns.length > 8 ? "table broad" : "table" },
     block.title ? element("h3", {}, ...subscripted(block.title)) : null,
     element("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": block.title ?? "Table" },
@@ -34,14 +35,21 @@ export function tables(blocks) {
   return shown.length ? element("div", { class: "tables" }, ...shown) : null;
 }
 
-function cell(value, column) {
+// `strength`: the number that gets the fullest colour; 0: none does.
+function cell(value, column, strength) {
   const { factor, numeric } = column;
   if (value?.unit) {
     const text = Array.isArray(value.value) ? vector(value.value, value.unit) : quantity(value.value, value.unit);
     return element("td", { title: String(value.value), dataset: { value: value.value }, text });
   }
   if (typeof value !== "number") return element("td", { class: numeric ? "number" : null }, ...subscripted(value ?? "–"));
-  return element("td", { class: "number", title: String(value), dataset: { value }, text: shown(value, column) });
+  return element("td", { class: "number", title: String(value), dataset: { value }, style: strength ? heat(value / strength) : null, text: shown(value, column) });
+}
+
+// A shade from none at 0 to the fullest at 1 and -1, of two colours.
+function heat(part) {
+  const colour = part < 0 ? "var(--curve-2)" : "var(--curve-1)";
+  return `background-color: color-mix(in srgb, ${colour} ${Math.round(60 * Math.sqrt(Math.abs(part)))}%, transparent)`;
 }
 
 // "(9.8, 0, 0) N"

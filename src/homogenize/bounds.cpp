@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/exact_sum.h"
+#include "homogenize/cells.h"
 
 namespace koshi::homogenize {
 namespace {
@@ -50,11 +51,10 @@ Bounds find_bounds(const model::Model& model) {
   const Communicator& communicator = model.communicator;
   Moduli most, least{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
   std::array<ExactSum, 2> whole;
-  // A cell belongs to the rank of its lower corner.
-  const auto for_each_cell = [&](auto&& use) {
-    lattice::for_each_owned(model.layout(), [&](auto, auto, auto, auto n) { use(moduli_of(model, n)); });
+  const auto for_each_moduli = [&](auto&& use) {
+    for_each_cell(model, [&](std::int64_t n) { use(moduli_of(model, n)); });
   };
-  for_each_cell([&](const Moduli& m) {
+  for_each_moduli([&](const Moduli& m) {
     most = {std::max(most.bulk, m.bulk), std::max(most.shear, m.shear)};
     least = {std::min(least.bulk, m.bulk), std::min(least.shear, m.shear)};
     whole[0] += m.bulk;
@@ -68,7 +68,7 @@ Bounds find_bounds(const model::Model& model) {
   const bool solid = least.bulk > 0 && least.shear > 0;
   Means means;
   means.shifts = {Moduli{0, 0}, Moduli{4 * least.shear / 3, partner(least)}, Moduli{4 * most.shear / 3, partner(most)}};
-  for_each_cell([&](const Moduli& m) { means.add(m); });
+  for_each_moduli([&](const Moduli& m) { means.add(m); });
   means.sum_ranks(communicator);
   const auto cells = static_cast<double>(model.lattice.grid.cell_count());
   Bounds bounds;

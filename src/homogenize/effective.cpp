@@ -1,16 +1,23 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cassert>
 #include <cmath>
 
 #include "base/exact_sum.h"
 #include "homogenize/bounds.h"
+#include "homogenize/cells.h"
+#include "homogenize/held.h"
+#include "homogenize/structure.h"
 #include "koshi/error.h"
 #include "statics/static_solver.h"
 #include "statics/uniform_strain.h"
 
 namespace koshi::homogenize {
 namespace {
+
+using Matrix = std::array<std::array<double, 6>, 6>;
 
 // Residual that rounding leaves where the strain is uniform: displacements E x of n cells have an error of n ulps, and
 // the springs of a cell turn them into forces of their own stiffness.
@@ -28,7 +35,7 @@ double rounding_residual(const model::Model& model) {
 void count_phases(const model::Model& model, Effective& effective) {
   const model::SpringLattice& body = model.lattice;
   std::vector<std::int64_t> count(model.materials.size());
-  lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) { ++count[body.cell.component(0)[n]]; });
+  for_each_cell(model, [&](std::int64_t n) { ++count[body.cell.component(0)[n]]; });
   // The masses of the nodes are those of their cells, partly filled ones too.
   ExactSum mass;
   lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) { mass += model.inertia.component(0)[n]; });
@@ -43,15 +50,131 @@ void count_phases(const model::Model& model, Effective& effective) {
   effective.density = mass.value() / (cells * std::pow(body.grid.d, 3));
 }
 
+// Mean stress and strain of the solid phases, summed over cells.
+class PhaseSums {
+ public:
+  PhaseSums(const model::Model& model, const std::vector<Phase>& phases) : model_(model) {
+    constexpr std::size_t most = 100;
+    if (phases.size() > most) return;
+    slot_.resize(model.materials.size());
+    for (const Phase& phase : phases) {
+      if (phase.material == 0) continue;
+      slot_[phase.material] = means_.size();
+      means_.push_back({phase.material, {}, {}});
+      cells_.push_back(phase.fraction * static_cast<double>(model.lattice.grid.cell_count()));
+    }
+  }
+  // Column j from the displacements of case j, ghosts set (collective).
+  void add(std::size_t j, const lattice::Field<double>& u) {
+    if (means_.empty()) return;
+    std::vector<ExactSum> sums(12 * means_.size());
+    const std::uint16_t* const cell = model_.lattice.cell.component(0);
+    for_each_cell(model_, [&](std::int64_t n) {
+      if (cell[n] == 0) return;
+      const mechanics::CellState state = mechanics::cell_state(model_.lattice, u, n);
+      ExactSum* const sum = &sums[12 * slot_[cell[n]]];
+      for (std::size_t v = 0; v < 6; ++v) {
+        sum[v] += state.stress[v];
+        sum[6 + v] += (v < 3 ? 1 : 2) * state.strain[v];
+      }
+    });
+    sum_ranks(sums, model_.communicator);
+    for (std::size_t p = 0; p < means_.size(); ++p)
+      for (std::size_t v = 0; v < 6; ++v) {
+        means_[p].stress[v][j] = sums[12 * p + v].value() / cells_[p];
+        means_[p].strain[v][j] = sums[12 * p + 6 + v].value() / cells_[p];
+      }
+  }
+  const std::vector<PhaseMeans>& means() const { return means_; }
+
+ private:
+  const model::Model& model_;
+  std::vector<std::size_t> slot_;
+  std::vector<PhaseMeans> means_;
+  std::vector<double> cells_;
+};
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix c{};
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j)
+      for (std::size_t k = 0; k < 6; ++k) c[i][j] += a[i][k] * b[k][j];
+  return c;
+}
+
+// The matrix made symmetric, and how far it was from that.
+Matrix symmetric(const Matrix& whole, double& asymmetry) {
+  double largest = 0, difference = 0;
+  Matrix result;
+  for (std::size_t i = 0; i < 6; ++i)
+    for (std::size_t j = 0; j < 6; ++j) {
+      largest = std::max(largest, std::abs(whole[i][j]));
+      difference = std::max(difference, std::abs(whole[i][j] - whole[j][i]));
+      result[i][j] = (whole[i][j] + whole[j][i]) / 2;
+    }
+  asymmetry = largest > 0 ? difference / largest : 0;
+  return result;
+}
+
+// Columns of C: mean stresses under the mean strains.
+void solve_strains(const model::Model& model, const std::vector<std::size_t>& cases,
+                   const statics::StaticOptions& options, Effective& effective, Matrix& whole, PhaseSums& means) {
+  lattice::Field<double> u(model.layout(), model.components());
+  std::vector<double> right_hand_side(static_cast<std::size_t>(model.layout().owned_count() * model.components()));
+  statics::StaticSolver solver(model, 0, u, options);
+  const double rounding = rounding_residual(model);
+  for (const std::size_t j : cases) {
+    mechanics::Tensor6 strain{};
+    strain[j] = j < 3 ? 1 : 0.5;
+    // The springs push the uniform strain out of balance; what is added to it restores it.
+    u.zero();
+    statics::add_uniform_strain(model, strain, u);
+    solver.equilibrium().right_hand_side(u, right_hand_side.data());
+    effective.cases[j] = solver.solve(right_hand_side.data(), rounding, u);
+    if (effective.cases[j].stopped) throw RunError("stopped before the six load cases were solved");
+    statics::add_uniform_strain(model, strain, u);
+    const mechanics::Tensor6 stress = statics::mean_stress(model, u);
+    for (std::size_t i = 0; i < 6; ++i) whole[i][j] = stress[i];
+    means.add(j, u);
+  }
+}
+
+// C as the inverse of the mean strains under the forces of uniform stresses.
+void solve_stresses(const model::Model& model, const statics::StaticOptions& options, Effective& effective,
+                    PhaseSums& means) {
+  lattice::Field<double> u(model.layout(), model.components());
+  std::vector<double> right_hand_side(static_cast<std::size_t>(model.layout().owned_count() * model.components()));
+  statics::StaticSolver solver(model, 0, u, options);
+  Matrix compliance{};
+  for (std::size_t j = 0; j < 6; ++j) {
+    surface_forces(model, j, right_hand_side.data());
+    effective.cases[j] = solver.solve(right_hand_side.data(), 0, u);
+    if (effective.cases[j].stopped) throw RunError("stopped before the six load cases were solved");
+    const mechanics::Tensor6 strain = surface_strain(model, u);
+    for (std::size_t i = 0; i < 6; ++i) compliance[i][j] = (i < 3 ? 1 : 2) * strain[i];
+    means.add(j, u);
+  }
+  // Engineering strains: S is symmetric as C is, and the inverse of either is the other.
+  const auto C = material::compliance({symmetric(compliance, effective.asymmetry)});
+  if (!C) throw RunError("the body gives way to some stress without end: no stiffness can be told");
+  effective.stiffness.voigt = *C;
+  effective.means = means.means();
+  for (PhaseMeans& mean : effective.means) {
+    mean.stress = product(mean.stress, *C);
+    mean.strain = product(mean.strain, *C);
+  }
+}
+
 }  // namespace
 
-void require_periodic_cell(const model::Definition& definition) {
+void require_loadable_cell(const model::Definition& definition, Boundary boundary) {
   const model::Places& places = definition.places;
   for (std::size_t a = 0; a < 3; ++a)
-    if (!definition.body.periodic[a])
+    if (boundary == Boundary::periodic && !definition.body.periodic[a])
       throw InputError(places.find("body.periodic"),
                        fmt::format("the body is not periodic in {}, but its effective stiffness is that of a body "
-                                   "repeated in all directions; set periodic = [\"x\", \"y\", \"z\"] in [body]",
+                                   "repeated in all directions; set periodic = [\"x\", \"y\", \"z\"] in [body], or "
+                                   "take another --boundary",
                                    "xyz"[a]));
   if (!definition.boundaries.empty())
     throw InputError(places.find("boundary[0]"),
@@ -66,39 +189,44 @@ void require_periodic_cell(const model::Definition& definition) {
                      "set springs = \"shared\"");
 }
 
-Effective effective_stiffness(const model::Model& model, const statics::StaticOptions& options) {
-  require_periodic_cell(model.definition);
+Effective effective_stiffness(const model::Model& model, const statics::StaticOptions& options, Boundary boundary) {
+  require_loadable_cell(model.definition, boundary);
+  assert(boundary == Boundary::periodic || model.lattice.grid.periodic == (std::array<bool, 3>{}));
   Effective effective;
+  effective.boundary = boundary;
+  effective.cases.resize(6);
   count_phases(model, effective);
   effective.bounds = find_bounds(model);
+  effective.structure = find_structure(model);
 
-  lattice::Field<double> u(model.layout(), model.components());
-  std::vector<double> right_hand_side(static_cast<std::size_t>(model.layout().owned_count() * model.components()));
-  statics::StaticSolver solver(model, 0, u, options);
-  const double rounding = rounding_residual(model);
-  material::ElasticTensor whole;
-  for (std::size_t j = 0; j < 6; ++j) {
-    mechanics::Tensor6 strain{};
-    strain[j] = j < 3 ? 1 : 0.5;
-    // The springs push the uniform strain out of balance; the periodic part restores it.
-    u.zero();
-    statics::add_uniform_strain(model, strain, u);
-    solver.equilibrium().right_hand_side(u, right_hand_side.data());
-    effective.cases.push_back(solver.solve(right_hand_side.data(), rounding, u));
-    if (effective.cases.back().stopped) throw RunError("stopped before the six load cases were solved");
-    statics::add_uniform_strain(model, strain, u);
-    const mechanics::Tensor6 stress = statics::mean_stress(model, u);
-    for (std::size_t i = 0; i < 6; ++i) whole.voigt[i][j] = stress[i];
+  PhaseSums means(model, effective.phases);
+  if (boundary == Boundary::periodic) {
+    Matrix whole{};
+    solve_strains(model, groups_of_cases(boundary)[0], options, effective, whole, means);
+    effective.stiffness.voigt = symmetric(whole, effective.asymmetry);
+    effective.means = means.means();
+    return effective;
   }
-
-  double largest = 0, difference = 0;
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j) {
-      largest = std::max(largest, std::abs(whole.voigt[i][j]));
-      difference = std::max(difference, std::abs(whole.voigt[i][j] - whole.voigt[j][i]));
-      effective.stiffness.voigt[i][j] = (whole.voigt[i][j] + whole.voigt[j][i]) / 2;
-    }
-  effective.asymmetry = largest > 0 ? difference / largest : 0;
+  // The held components are those of the model, which changes from group to group.
+  model::Model held = model;
+  if (boundary == Boundary::traction) {
+    require_whole_surface(model);
+    hold_surface(boundary, {}, held);
+    solve_stresses(held, options, effective, means);
+    return effective;
+  }
+  Matrix whole{};
+  for (const std::vector<std::size_t>& cases : groups_of_cases(boundary)) {
+    hold_surface(boundary, cases, held);
+    solve_strains(held, cases, options, effective, whole, means);
+  }
+  // Mirror images take back what one box has of stresses of another kind than the strain.
+  if (boundary == Boundary::mixed)
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j)
+        if (i != j && (i >= 3 || j >= 3)) whole[i][j] = 0;
+  effective.stiffness.voigt = symmetric(whole, effective.asymmetry);
+  effective.means = means.means();
   return effective;
 }
 

@@ -18,6 +18,7 @@
 #include "report/history.h"
 #include "report/mesh.h"
 #include "report/modes.h"
+#include "report/stiffness.h"
 #include "report/tables.h"
 
 namespace koshi::report {
@@ -119,6 +120,7 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
   const std::string case_text = io::read_file(input);
   const model::Definition definition = io::read_case(input);
   const json summary = read_summary(directory / "summary.json");
+  const json stiffness = read_summary(directory / "stiffness.json");
 
   json data{{"format", "koshi-report/1"},
             {"version", KOSHI_VERSION},
@@ -135,6 +137,12 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
     if (modal) labels = mode_labels(summary);
   } catch (const json::exception&) {
     throw InputError(fmt::format("{} is no summary as Koshi writes it", (directory / "summary.json").native()));
+  }
+
+  try {
+    if (!stiffness.empty()) add_stiffness(stiffness, data);
+  } catch (const json::exception&) {
+    throw InputError(fmt::format("{} is no stiffness as Koshi writes it", (directory / "stiffness.json").native()));
   }
 
   if (const fs::path history = directory / "history.csv"; fs::exists(history))

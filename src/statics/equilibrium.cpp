@@ -86,6 +86,7 @@ void Equilibrium::right_hand_side(double* b) {
 
 void Equilibrium::right_hand_side(const lattice::Field<double>& u, double* b) {
   forces(u, b, [](std::int64_t, std::int64_t, double* const*) {});
+  for (const Prescribed& p : prescribed_) b[p.unknown] = 0;
 }
 
 void Equilibrium::apply(const double* x, double* y) {

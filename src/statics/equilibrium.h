@@ -21,8 +21,8 @@ class Equilibrium {
   std::int64_t size() const { return node_count_ * components_; }
   /// Loads, and forces from prescribed displacements, on free components (collective).
   void right_hand_side(double* b);
-  /// Forces -K u of a field whose ghosts are set: the right-hand side for what has to be added to u where nothing is
-  /// prescribed.
+  /// Forces -K u of a field whose ghosts are set, on free components: the right-hand side for what has to be added to
+  /// u.
   void right_hand_side(const lattice::Field<double>& u, double* b);
   /// y = P K P x + (I - P) x, P the projection on free components (collective).
   void apply(const double* x, double* y);

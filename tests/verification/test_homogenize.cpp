@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "support/cases.h"
 #include "support/first_ranks.h"
+#include "support/periodic_block.h"
 
 namespace koshi {
 namespace {
@@ -17,33 +17,11 @@ using material::Elastic;
 using material::ElasticTensor;
 using material::Kinematics;
 
-const std::vector<Elastic> elastics{{30e9, 0.2, 2600}, {6e9, 0.33, 2000}, {70e9, 0.1, 3000}};
+using test::effective;
+using test::fill;
+using test::periodic_block;
 
-model::Definition periodic_block(const Int3& cells) {
-  model::Definition definition = test::block(cells, 0.01);
-  definition.analysis = {};
-  definition.analysis.tolerance = 1e-12;
-  definition.body.periodic = {true, true, true};
-  definition.materials = {{"a", elastics[0]}, {"b", elastics[1]}, {"c", elastics[2]}};
-  definition.body.material = "a";
-  return definition;
-}
-
-// Gives each cell a material by its indices.
-template <class F>
-void fill(model::Definition& definition, const Int3& cells, F&& material_of) {
-  definition.body.material.clear();
-  for (std::int64_t k = 0; k < cells[2]; ++k)
-    for (std::int64_t j = 0; j < cells[1]; ++j)
-      for (std::int64_t i = 0; i < cells[0]; ++i)
-        definition.body.cells.push_back(static_cast<std::uint16_t>(material_of(Int3{i, j, k})));
-}
-
-homogenize::Effective effective(const model::Definition& definition, const Communicator& communicator) {
-  statics::StaticOptions options;
-  options.tolerance = definition.analysis.tolerance;
-  return homogenize::effective_stiffness(model::make_model(definition, communicator), options);
-}
+const std::vector<Elastic>& elastics = test::three_elastics;
 
 // Backus 1962, J. Geophys. Res. 67: layers across `axis` with the given materials in equal shares.
 ElasticTensor backus(int axis, const std::vector<Elastic>& layers) {
