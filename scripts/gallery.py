@@ -74,13 +74,20 @@ class Runs:
         self.case, self.koshi, self.directory, self.count = EXAMPLES / example / "case.toml", koshi, directory, 0
 
     def __call__(self, *overrides):
+        return Results(self._run("run", "output.fields=['material']", *overrides))
+
+    def homogenize(self, *overrides):
+        """The object of stiffness.json."""
+        return json.loads((self._run("homogenize", *overrides) / "stiffness.json").read_text())
+
+    def _run(self, verb, *overrides):
         self.count += 1
         out = self.directory / str(self.count)
-        command = [self.koshi, "run", self.case, "--out", out, "--quiet", "--set", "output.fields=['material']"]
+        command = [self.koshi, verb, self.case, "--out", out, "--quiet"]
         for override in overrides:
             command += ["--set", override]
         subprocess.run(command, check=True)
-        return Results(out)
+        return out
 
 
 def rows_of(example, koshi):

@@ -244,10 +244,33 @@ def tuning_fork(maker):
     return side_by_side(*maker.bodies("50_tuning_fork", ["sample=0"], ["sample=2"], look="y"))
 
 
+def sandstone(maker):
+    """A section in colours, and the end points of E(n) n in three planes."""
+    folder = EXAMPLES / "30_sandstone"
+    image = maker.directory / "sandstone.npy"
+    subprocess.run([sys.executable, folder / "sandstone.py", image, "96"], check=True)
+    out = maker.directory / "out"
+    subprocess.run([maker.build / "koshi", "homogenize", folder / "case.toml", "--out", out, "--quiet", "--set", f"body.image={image}",
+                    "--set", "lattice.spacing='5 um'", "--set", "output.report=false"], check=True)
+    fig, (left, right) = figure(2)
+    colours = matplotlib.colors.ListedColormap(["#20262e", "#e8dcc0", "#b3703a"])
+    left.imshow(np.load(image)[48], cmap=colours, vmin=0, vmax=2, origin="lower", extent=(0, 0.48, 0, 0.48), interpolation="nearest")
+    left.grid(False)
+    left.set(title="section: quartz, clay, pores", xlabel="x [mm]", ylabel="y [mm]")
+    rows = np.genfromtxt(out / "directions.csv", delimiter=",", skip_header=1)
+    for plane, colour in zip(range(3), (BLUE, RED, GREEN)):
+        n, modulus = rows[36 * plane:36 * (plane + 1), :3], 1e-9 * rows[36 * plane:36 * (plane + 1), 3]
+        ends = np.concatenate([modulus[:, None] * n, -modulus[:, None] * n, modulus[:1, None] * n[:1]])
+        right.plot(ends[:, plane], ends[:, (plane + 1) % 3], color=colour, label=f"plane {'xyz'[plane]}{'xyz'[(plane + 1) % 3]}")
+    right.set(title="Young's modulus by direction [GPa]", aspect="equal")
+    right.legend(loc="center")
+    return drawn(fig)
+
+
 PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
             "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
             "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
-            "10_tunnel": tunnel, "50_tuning_fork": tuning_fork}
+            "10_tunnel": tunnel, "30_sandstone": sandstone, "50_tuning_fork": tuning_fork}
 
 
 def main():
