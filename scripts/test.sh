@@ -11,5 +11,5 @@ cmake --preset release
 cmake --build --preset release --parallel "$(nproc)"
 # The C++, Python, report, documentation and packaging tests are all registered with CTest.
 ctest --preset release --parallel "$(nproc)"
-# The readers of input and checkpoints, sanitized, against ten seconds of inputs made up for each.
-scripts/fuzz.sh 10
+# The readers of input and checkpoints, sanitized, against three seconds of inputs made up for each.
+scripts/fuzz.sh 3

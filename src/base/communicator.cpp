@@ -13,10 +13,15 @@ MPI_Comm mpi(int handle) { return MPI_Comm_f2c(handle); }
 // A process without a launcher needs no daemon of one, which would want programs of a PATH and a home directory.
 void start(int* argc, char*** argv) {
   ::setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-  // Such processes share one directory in /tmp, which the first of them to end takes away: nothing may be kept there.
+  // Nor does it need the directory in /tmp that all such processes share and the first of them to end takes away, even
+  // from under one that just begins. The variable is gone before a child with ranks could inherit it.
+  constexpr const char* directories = "OMPI_MCA_orte_create_session_dirs";
+  const bool alone = std::getenv("OMPI_COMM_WORLD_SIZE") == nullptr && std::getenv(directories) == nullptr;
+  if (alone) ::setenv(directories, "0", 1);
   // Open MPI would put the pointer that ranks share in a file there, which no file of Koshi's uses.
   ::setenv("OMPI_MCA_sharedfp", "individual", 0);
   MPI_Init(argc, argv);
+  if (alone) ::unsetenv(directories);
 }
 
 }  // namespace

@@ -221,6 +221,12 @@ TEST_F(Edges, EmptyEnvironmentIsEnoughForOneProcess) {
   const Ended alone = shell("-i" + without_leaks(), "run static.toml --out out --quiet");
   EXPECT_EQ(alone.code, 0) << alone.error;
   EXPECT_EQ(alone.error, "");
+  // Nor does it leave or share anything in the directory of temporary files.
+  const fs::path temporary = directory_ / "temporary";
+  const Ended apart =
+      shell("TMPDIR='" + temporary.native() + "'" + without_leaks(), "run static.toml --out apart --quiet");
+  EXPECT_EQ(apart.code, 0) << apart.error;
+  EXPECT_FALSE(fs::exists(temporary));
   const Ended ranks = shell("-i" + without_leaks(), "run static.toml --out several --quiet --ranks 2");
   EXPECT_EQ(ranks.code, 2);
   EXPECT_THAT(ranks.error, StartsWith("--ranks: error: the environment has no PATH, where mpiexec"));
