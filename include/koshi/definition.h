@@ -151,6 +151,7 @@ struct AnalysisDefinition {
   bool allow_unstable_step = false;  ///< run with a step above the stable limit all the same
   double safety = 0.9;               ///< of the automatic step: its ratio to the stable limit
   DampingDefinition damping;         ///< unset in a dynamic run: none
+  int events = 1000;                 ///< statics of a body that can crack: the most events of cracking
   std::string start_from;            ///< output directory of an earlier run whose displacements are the start
   int count = 10;                    ///< modes
   double near = 0;                   ///< modes: those closest to this frequency [Hz]; 0: the lowest
@@ -187,6 +188,7 @@ struct OutputDefinition {
   /// displacement.
   std::vector<std::string> fields{"displacement"};
   std::optional<double> every;             ///< [s] simulated time between field samples; unset: the end only
+  std::optional<int> every_events;         ///< events of cracking between field samples; unset: the end only
   std::optional<double> history_every;     ///< [s] simulated time between rows of history.csv; unset: 200 rows
   std::optional<double> checkpoint_every;  ///< [s] simulated time
   std::optional<double> checkpoint_wall;   ///< [s] wall time; key checkpoint_every_wall
@@ -226,6 +228,8 @@ struct Definition {
   material::Calibration calibration() const;
   /// Whether some material can crack.
   bool cracks() const;
+  /// Whether this is an equilibrium that follows its cracks event by event.
+  bool cracks_in_equilibrium() const { return analysis.type == AnalysisDefinition::Type::statics && cracks(); }
 
   /// Equal input; where it stood (places, directory) counts nothing.
   bool operator==(const Definition& other) const;

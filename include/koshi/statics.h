@@ -35,6 +35,9 @@ struct SolveReport {
   std::vector<std::string> unused_options;  ///< PETSc options that nothing asked for
 };
 
+/// The time [s] at which loads and motions are taken: when all histories and ramps have ended, or the duration.
+double end_time(const model::Definition& definition);
+
 /// Fills the state's displacements with the equilibrium under the loads at the end of their histories; velocities are
 /// zero (collective). Throws InputError when the loads move a part that nothing holds,
 /// RunError when the iteration does not converge; displacements are not defined then. A solve that is stopped leaves

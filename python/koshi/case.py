@@ -181,6 +181,8 @@ class Analysis:
     """ratio of the automatic step to the stable limit, default 0.9"""
     damping: Mapping[str, Quantity] | None = None
     """{"kind": "local", "factor": 0.8} (default of quasi-static), {"kind": "viscous", "rate": ...} or {"kind": "none"}"""
+    events: int | None = None
+    """static, of a body that can crack: the most events, default 1000"""
     start_from: str | os.PathLike | None = None
     """output directory of an earlier run whose displacements are the start"""
     count: int | None = None
@@ -219,6 +221,8 @@ class Output:
     """default ["displacement"] """
     every: Quantity | None = None
     """simulated time between samples of the fields [s], default the end only"""
+    every_events: int | None = None
+    """of a static body that cracks: events between samples of the fields, default the end only"""
     history_every: Quantity | None = None
     """simulated time between rows of history.csv [s]"""
     checkpoint_every: Quantity | None = None

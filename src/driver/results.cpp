@@ -39,6 +39,14 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
                   {"projected_motions", s.projected_motions},
                   {"residual_history", s.residual_history}});
     if (!s.free_motions.empty()) entry["free_motions"] = s.free_motions;
+    if (outcome.path) {
+      entry["reason"] = outcome.path->reason;
+      entry.update({{"events", outcome.path->events},
+                    {"cracked_cells", outcome.path->cracked},
+                    {"parted_cells", outcome.path->parted},
+                    {"hierarchies", outcome.path->hierarchies},
+                    {"peak", {{"event", outcome.path->peak_event}, {"load_factor", outcome.path->peak_load_factor}}}});
+    }
     return entry;
   }
   if (outcome.modes) {
@@ -78,6 +86,7 @@ Json performance(const model::Model& model, const Outcome& outcome, const RunMem
 
 std::vector<std::string> history_columns(const model::Model& model) {
   std::vector<std::string> columns{"time [s]"};
+  if (model.definition.cracks_in_equilibrium()) columns = {"event [1]", "load factor [1]"};
   for (const model::Probe& probe : model.probes) {
     const auto quantity = probe.definition.quantity;
     for (const std::string& component : mechanics::component_names(quantity))
@@ -95,6 +104,7 @@ std::vector<std::string> history_columns(const model::Model& model) {
 
 std::vector<double> history_row(const model::Model& model, double time, const mechanics::Measurement& measurement) {
   std::vector<double> row{time};
+  if (model.definition.cracks_in_equilibrium()) row.push_back(measurement.balance.load_factor);
   for (const mechanics::ProbeValue& value : measurement.probes) row.insert(row.end(), value.begin(), value.end());
   const mechanics::Balance& balance = measurement.balance;
   row.insert(row.end(),
@@ -135,7 +145,14 @@ nlohmann::ordered_json summary(const model::Model& model, const model::State& st
 std::string headline(const model::Model& model, const Outcome& outcome) {
   std::string text;
   if (outcome.modes) return modes_text(*outcome.modes, outcome.seconds);
-  if (outcome.solution) {
+  if (outcome.path) {
+    const CrackPath& path = *outcome.path;
+    text = fmt::format(
+        "equilibrium of {} unknowns, {} events in {} iterations, {:.3g} s: {}\n"
+        "  the most is carried at event {}, load factor {:.6g}; {} cells cracked, {} of them through\n",
+        outcome.solution->unknowns, path.events, outcome.solution->iterations, outcome.seconds, path.reason,
+        path.peak_event, path.peak_load_factor, path.cracked, path.parted);
+  } else if (outcome.solution) {
     text = fmt::format("equilibrium of {} unknowns in {} iterations, residual {:.1e}, {:.3g} s\n",
                        outcome.solution->unknowns, outcome.solution->iterations, outcome.solution->relative_residual,
                        outcome.seconds);

@@ -92,7 +92,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   if (outcome.solution && communicator.is_root())
     for (const std::string& option : outcome.solution->unused_options)
       fmt::print(stderr, "warning: PETSc option {} was not used; check its name\n", option);
-  if (outcome.stopped && outcome.solution && checkpoints.stop_requested())
+  if (outcome.stopped && outcome.solution && !outcome.path && checkpoints.stop_requested())
     throw RunError(
         fmt::format("stopped by a signal after {} iterations (relative residual {:.1e}); a static analysis keeps no "
                     "checkpoint: run "
@@ -103,12 +103,12 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
         fmt::format("stopped by a signal after {} iterations; nothing is kept of a search for modes, start it "
                     "again",
                     outcome.modes->iterations));
-  if (outcome.stopped && checkpoints.stop_requested())
+  if (outcome.stopped && !outcome.path && checkpoints.stop_requested())
     throw RunError(fmt::format("stopped by a signal at step {} (t = {:.6g} s); go on with --restart {}", state.step,
                                state.time, (options.directory / "checkpoint.h5").string()));
   // An equilibrium may be the start of another run; other runs keep their end when they keep checkpoints at all.
   const bool equilibrium = modal              ? false
-                           : outcome.solution ? !outcome.stopped
+                           : outcome.solution ? !outcome.stopped || outcome.path
                                               : definition.analysis.type != model::AnalysisDefinition::Type::dynamic;
   if (equilibrium || definition.output.checkpoint_every || definition.output.checkpoint_wall) checkpoints.write(state);
   if (modal) io::write_table(communicator, options.directory / "modes.csv", mode_columns(), mode_rows(*outcome.modes));
@@ -117,6 +117,10 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   collectively(communicator, [&] {
     if (definition.output.report && communicator.is_root()) report::write_report(options.directory);
   });
+  // What cracked until then is written like any other end.
+  if (outcome.path && outcome.stopped && checkpoints.stop_requested())
+    throw RunError(fmt::format("stopped by a signal after {} events; the results so far are in {}",
+                               outcome.path->events, options.directory.string()));
   return outcome;
 }
 

@@ -69,9 +69,10 @@ Outcome Simulation::run(const Observer& observer, const std::vector<std::string>
   stepper_.reset();
   state();
   const Type type = model_->definition.analysis.type;
-  Outcome outcome = type == Type::statics ? run_static(observer, petsc_options)
-                    : type == Type::modes ? run_modes(observer)
-                                          : run_explicit(observer);
+  Outcome outcome = model_->definition.cracks_in_equilibrium() ? run_events(observer, petsc_options)
+                    : type == Type::statics                    ? run_static(observer, petsc_options)
+                    : type == Type::modes                      ? run_modes(observer)
+                                                               : run_explicit(observer);
   lag_ = outcome.time_step;
   outcome.seconds = now() - start;
   return outcome;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/memory.h"
+#include "driver/crack_path.h"
 #include "failure/cracking.h"
 #include "koshi/dynamics.h"
 #include "koshi/model.h"
@@ -24,6 +25,7 @@ struct Outcome {
   std::optional<mechanics::StableStep> stable;   ///< explicit analyses
   std::optional<statics::SolveReport> solution;  ///< static analyses
   std::optional<modes::ModesReport> modes;       ///< of a search for modes
+  std::optional<CrackPath> path;                 ///< static analyses that follow cracks
   bool converged = true;                         ///< quasi-static: the tolerance was reached
   bool stopped = false;                          ///< the observer asked to stop; a static analysis has not converged
   double seconds = 0;                            ///< wall time of stepping or solving
@@ -88,6 +90,8 @@ class Simulation {
  private:
   mechanics::Measurement measure_at(double dt);
   Outcome run_static(const Observer& observer, const std::vector<std::string>& petsc_options);
+  Outcome run_events(const Observer& observer, const std::vector<std::string>& petsc_options);
+  double work_of_supports();
   Outcome run_modes(const Observer& observer);
   Outcome run_explicit(const Observer& observer);
   double choose_step(const mechanics::StableStep& stable) const;

@@ -25,15 +25,18 @@ double CellLaw::safe(double strength_factor) const {
   return threshold_of({side, side, side}, strength_factor);
 }
 
-std::optional<Crack> CellLaw::onset(const Tensor6& strain, double strength_factor) const {
+double CellLaw::equivalent(const Tensor6& strain) const {
+  return criterion_.equivalent(principal(elastic_stress(lambda_, mu_, strain)).value) / youngs_modulus_;
+}
+
+Crack CellLaw::ahead(const Tensor6& strain, double strength_factor) const {
   const Principal stress = principal(elastic_stress(lambda_, mu_, strain));
   Crack crack;
   crack.kappa = criterion_.equivalent(stress.value) / youngs_modulus_;
   crack.normal = criterion_.normal(stress);
   crack.limit = threshold_of(crack.normal, strength_factor);
-  if (crack.kappa <= crack.limit) return std::nullopt;
 
-  // A little beyond the limit already: the onset was at the same strain scaled down to it.
+  // The onset is at the same strain scaled to the limit.
   const double beyond = crack.kappa / crack.limit;
   crack.onset = energy(strain) / (beyond * beyond);
   // Cells that shear under pressure store much more than the crack of a tensile test takes; they soften by the same
@@ -41,6 +44,12 @@ std::optional<Crack> CellLaw::onset(const Tensor6& strain, double strength_facto
   const double stored =
       criterion_.shears(stress.value) ? 0.5 * youngs_modulus_ * crack.limit * crack.limit : crack.onset;
   crack.ratio = fracture_.fracture_energy / band_width(d_, crack.normal) / stored;
+  return crack;
+}
+
+std::optional<Crack> CellLaw::onset(const Tensor6& strain, double strength_factor) const {
+  Crack crack = ahead(strain, strength_factor);
+  if (crack.kappa <= crack.limit) return std::nullopt;
   return crack;
 }
 

@@ -36,6 +36,13 @@ class CellLaw {
     const double p = (3 * lambda_ + 2 * mu_) / youngs_modulus_, r = 2 * mu_ / youngs_modulus_;
     return {p * of.p_1, r * of.r_1, p * of.p_2, r * of.r_2};
   }
+  /// The crack that this strain leads to in a cell without one, when it has grown or shrunk in proportion until the
+  /// equivalent strain is at the limit.
+  Crack ahead(const Tensor6& strain, double strength_factor) const;
+  /// Equivalent strain.
+  double equivalent(const Tensor6& strain) const;
+  /// How a crack softens its cell.
+  Softening softening(const Crack& crack) const { return {fracture_.softening, crack.ratio}; }
   /// A cell without a crack at this strain: the crack that begins, without damage yet, or nothing.
   std::optional<Crack> onset(const Tensor6& strain, double strength_factor) const;
   /// Raises the damage of a cracked cell to what this strain asks for; `energy` [J/m^3] is what the intact cell would

@@ -11,11 +11,6 @@ namespace {
 // A cell is looked at a little below its limit, so that how the first look was rounded does not matter.
 constexpr double margin = 1 - 1e-5;
 
-// Rows of cells that touch an owned node, (-1, -1) first.
-std::size_t cell_row(const lattice::Layout& layout, std::int64_t j, std::int64_t k) {
-  return static_cast<std::size_t>((j + 1) + (layout.owned()[1] + 1) * (k + 1));
-}
-
 }  // namespace
 
 Cracking::Cracking(model::Model& model, model::State& state)

@@ -12,6 +12,11 @@
 
 namespace koshi::failure {
 
+/// Rows of cells that touch an owned node, (-1, -1) first.
+inline std::size_t cell_row(const lattice::Layout& layout, std::int64_t j, std::int64_t k) {
+  return static_cast<std::size_t>((j + 1) + (layout.owned()[1] + 1) * (k + 1));
+}
+
 /// Keeps State::crack, State::face_force and the factors of the model's cells together. Every rank follows all cells
 /// that touch its nodes, so that the bits do not depend on the ranks and no cracks are exchanged.
 class Cracking {
@@ -34,6 +39,7 @@ class Cracking {
   void complete(mechanics::Balance& balance) const;
 
  private:
+  friend class CrackEvents;  // of the same cells, in equilibrium
   void follow_row(std::int64_t j, std::int64_t k, double dt);
   void crack_further(std::int64_t n, double dt);
   float factor(std::int64_t n, double damage) const;

@@ -1,5 +1,7 @@
 #include "failure/softening.h"
 
+#include <limits>
+
 namespace koshi::failure {
 
 // Uniaxial tension by x times the strain of the onset, elastic energy x^2: where the stress falls as s(x), the crack
@@ -30,6 +32,19 @@ double Softening::damage(double damage, double before, double stress, double ene
     (missing(middle) > 0 ? low : high) = middle;
   }
   return std::max(damage, 1 - low / stress);
+}
+
+double Softening::reach(double before, double gain, double stress) const {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  if (stress <= 0) return gain > 0 ? std::max(ratio_ - before, 0.0) / gain : never;
+  if (ratio_ <= 1) return 1 / stress;
+  // The less strength is left, the more has been taken; at a higher factor more of it is missing.
+  double low = 0, high = 1;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (taken(middle) > before + gain * middle / stress ? low : high) = middle;
+  }
+  return high / stress;
 }
 
 }  // namespace koshi::failure

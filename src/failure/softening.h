@@ -39,6 +39,11 @@ class Softening {
   /// than the strength that is left.
   double damage(double damage, double taken, double stress, double energy) const;
 
+  /// The factor at which the stress of a cell that carries `stress` times it meets the strength that is left, where the
+  /// crack has `taken` and takes `gain` >= 0 more for each unit of the factor; infinite where it never does. A cell
+  /// that carries nothing meets it when the crack has taken all.
+  double reach(double taken, double gain, double stress) const;
+
  private:
   material::Softening kind_;
   double ratio_;

@@ -18,9 +18,10 @@ struct Balance {
   double residual = 0;   ///< [N], root of the sum of squares of forces (and moments/d) on free components
   double reference = 0;  ///< [N], the same of loads and reactions
   // Where cells can crack, since the start:
-  double given = 0;    ///< [J], work of loads and supports
-  double damped = 0;   ///< [J], taken by damping
-  double cracked = 0;  ///< [J], taken by cracks and the friction of their faces
+  double given = 0;        ///< [J], work of loads and supports
+  double damped = 0;       ///< [J], taken by damping
+  double cracked = 0;      ///< [J], taken by cracks and the friction of their faces
+  double load_factor = 1;  ///< on loads and prescribed motions, where an equilibrium follows its cracks
 
   /// Unbalanced-force ratio, residual / reference; 0 for a body without any force.
   double unbalanced_ratio() const { return residual == 0 ? 0 : reference > 0 ? residual / reference : 1; }

@@ -81,14 +81,11 @@ void check_fracture(const Checker& check, const std::string& path, const materia
     check.fail(path,
                "fracture needs springs that are isotropic, which the paper's calibration does not promise; leave "
                "calibration out, or take \"isotropic\"");
-  const std::string type = choice_name(check.definition.analysis.type);
-  if (!check.definition.analysis.stepped())
-    check.fail(path, fmt::format("type = \"{}\" follows no cracks: {}; use analysis.type = \"quasi-static\" or "
-                                 "\"dynamic\", or set law = \"none\"",
-                                 type,
-                                 check.definition.analysis.type == AnalysisDefinition::Type::statics
-                                     ? "it finds one equilibrium of the body as it is"
-                                     : "modes are small vibrations of the body as it is"));
+  if (check.definition.analysis.type == AnalysisDefinition::Type::modes)
+    check.fail(
+        path,
+        "type = \"modes\" follows no cracks: modes are small vibrations of the body as it is; use analysis.type = "
+        "\"static\", \"quasi-static\" or \"dynamic\", or set law = \"none\"");
 }
 
 void check_materials(const Checker& check) {

@@ -48,6 +48,7 @@ void check_run(const Checker& check) {
   check.within(ranges::damping_factor, "analysis.damping.factor", analysis.damping.factor);
   check.within(ranges::damping_rate, "analysis.damping.rate", analysis.damping.rate);
 
+  check.within(ranges::event_count, "analysis.events", analysis.events);
   check.within(ranges::mode_count, "analysis.count", analysis.count);
   check.within(ranges::frequency, "analysis.near", analysis.near);
   if (analysis.type == AnalysisDefinition::Type::modes) check_output_of_modes(check);
@@ -62,6 +63,12 @@ void check_run(const Checker& check) {
       check.fail(fmt::format("output.fields[{}]", i),
                  "damage belongs to materials that crack, and there is none; give one a fracture, or leave damage out");
   check.within(ranges::time, "output.every", output.every);
+  if (output.every_events) check.within(ranges::event_count, "output.every_events", *output.every_events);
+  if (output.every_events && !check.definition.cracks_in_equilibrium())
+    check.fail(
+        "output.every_events",
+        "every_events counts the events of a static body that cracks, and this is none; samples of a run in time "
+        "are taken by every");
   check.within(ranges::time, "output.history_every", output.history_every);
   check.within(ranges::time, "output.checkpoint_every", output.checkpoint_every);
   check.within(ranges::time, "output.checkpoint_every_wall", output.checkpoint_wall);

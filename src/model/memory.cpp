@@ -124,15 +124,17 @@ double predicted_memory(const Definition& definition, int ranks) {
     const double solver = solver_bytes(grid, components, ranks) + mixed_bytes(definition, grid, components);
     return bytes * static_cast<double>(whole.size()) + solver + vectors + sample;
   }
+  // Cracks, forces of their faces and the energies of nodes; three numbers of single precision that follow from them
+  // (failure/cracking.h), one of them the factor above.
+  if (definition.cracks()) bytes += 8 * (crack_components + 3 + 2) + 8 + (factors ? 0 : 4);
   if (statics) {
+    // The operand and the right-hand side of many solves, beside displacements and velocities.
+    if (definition.cracks()) bytes += 16 * components;
     // The solver's memory is free again when fields are written.
     const double solver = solver_bytes(grid, components, ranks) + mixed_bytes(definition, grid, components);
     return bytes * static_cast<double>(whole.size()) + std::max(solver, sample);
   }
   bytes += 8 * inertias + (orients ? 32 : 0);
-  // Cracks, forces of their faces and the energies of nodes; three numbers of single precision that follow from them
-  // (failure/cracking.h), one of them the factor above.
-  if (definition.cracks()) bytes += 8 * (crack_components + 3 + 2) + 8 + (factors ? 0 : 4);
   // Boxes with ghosts and padding; and every rank keeps the materials and factors of all cells where they come from
   // files.
   const lattice::Partition partition = lattice::make_partition(grid, ranks);

@@ -92,6 +92,7 @@ inline constexpr Range tolerance{.least = 1e-15, .most = 1, .open_above = true};
 inline constexpr Range safety{.least = 1e-6, .most = 1};
 inline constexpr Range damping_factor{.least = 0, .most = 1, .open_above = true};
 inline constexpr Range damping_rate{.unit = "1/s", .least = 0, .most = 1e20};
+inline constexpr Range event_count{.least = 1, .most = 1e6};
 inline constexpr Range mode_count{.least = 1, .most = 200};
 inline constexpr Range frequency{.unit = "1/s", .least = 0, .most = 1e20};
 

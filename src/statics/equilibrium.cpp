@@ -104,6 +104,19 @@ void Equilibrium::apply(const double* x, double* y) {
   for (const Prescribed& p : prescribed_) y[p.unknown] = x[p.unknown];
 }
 
+void Equilibrium::gather(const lattice::Field<double>& displacement, double* x) const {
+  const lattice::Layout& layout = model_.layout();
+  const Int3& owned = layout.owned();
+  for (std::int64_t k = 0; k < owned[2]; ++k)
+    for (std::int64_t j = 0; j < owned[1]; ++j)
+      for (int c = 0; c < components_; ++c) {
+        const double* const from = displacement.component(c) + layout.index(0, j, k);
+        double* const to = x + c * node_count_ + unknown_of(j, k);
+        for (std::int64_t i = 0; i < owned[0]; ++i) to[i] = scale(c) * from[i];
+      }
+  for (const Prescribed& p : prescribed_) x[p.unknown] = 0;
+}
+
 void Equilibrium::fill(const double* x, lattice::Field<double>& displacement) const {
   displacement.zero();
   to_field(x, displacement);

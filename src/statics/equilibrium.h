@@ -29,6 +29,9 @@ class Equilibrium {
   /// Displacements and rotations of a solution, with the prescribed ones.
   void fill(const double* x, lattice::Field<double>& displacement) const;
 
+  /// The unknowns of a field of displacements, zero where they are prescribed.
+  void gather(const lattice::Field<double>& displacement, double* x) const;
+
   const FixedNodes& fixed() const { return fixed_; }
 
  private:

@@ -7,21 +7,6 @@
 namespace koshi::statics {
 namespace {
 
-// The time at which all histories and ramps have ended, or the duration asked for.
-double end_time(const model::Definition& definition) {
-  if (definition.analysis.duration) return *definition.analysis.duration;
-  double t = 0;
-  const auto last = [&t](const model::History& history) {
-    if (!history.empty()) t = std::max(t, history.back()[0]);
-  };
-  for (const auto& load : definition.loads) last(load.history);
-  for (const auto& boundary : definition.boundaries) {
-    last(boundary.history);
-    t = std::max(t, boundary.ramp);
-  }
-  return t;
-}
-
 /// Memory of the state that waits for its values until the end; all zero again when this is gone.
 class Borrowed {
  public:
@@ -36,6 +21,20 @@ class Borrowed {
 };
 
 }  // namespace
+
+double end_time(const model::Definition& definition) {
+  if (definition.analysis.duration) return *definition.analysis.duration;
+  double t = 0;
+  const auto last = [&t](const model::History& history) {
+    if (!history.empty()) t = std::max(t, history.back()[0]);
+  };
+  for (const auto& load : definition.loads) last(load.history);
+  for (const auto& boundary : definition.boundaries) {
+    last(boundary.history);
+    t = std::max(t, boundary.ramp);
+  }
+  return t;
+}
 
 SolveReport solve_static(const model::Model& model, model::State& state, const StaticOptions& options) {
   state.time = end_time(model.definition);

@@ -87,7 +87,14 @@ StaticSolver::StaticSolver(const model::Model& model, double t, lattice::Field<d
   setup_seconds_ = steady_seconds() - start_;
 }
 
-SolveReport StaticSolver::solve(double* right_hand_side, double absolute, lattice::Field<double>& displacement) {
+void StaticSolver::refresh() {
+  // The old one goes first: two need twice the memory.
+  preconditioner_.reset();
+  preconditioner_ = std::make_unique<Preconditioner>(model_, equilibrium_.fixed(), free_);
+}
+
+SolveReport StaticSolver::solve(double* right_hand_side, double absolute, lattice::Field<double>& displacement,
+                                bool from_there) {
   SolveReport report;
   const double start = steady_seconds();
   report.projected_motions = free_.count();
@@ -125,6 +132,13 @@ SolveReport StaticSolver::solve(double* right_hand_side, double absolute, lattic
   check(PCShellSetApply(pc, apply_preconditioner));
   check(KSPMonitorSet(solver, monitor, &context, nullptr));
   check(KSPSetFromOptions(solver));
+  if (from_there) {
+    PetscScalar* start_values = nullptr;
+    check(VecGetArrayWrite(x, &start_values));
+    equilibrium_.gather(displacement, start_values);
+    check(VecRestoreArrayWrite(x, &start_values));
+    check(KSPSetInitialGuessNonzero(solver, PETSC_TRUE));
+  }
   report.setup_seconds = setup_seconds_ + steady_seconds() - start;
 
   const PetscErrorCode code = KSPSolve(solver, b, x);

@@ -25,9 +25,19 @@ class StaticSolver {
   /// Fills the displacements, ghosts too, with the solution of K u = b, free motions taken out of both; starts from
   /// zero. It also ends at a residual (2-norm over the unknowns) of `absolute` [N], where that is above 0. Throws
   /// RunError when the iteration does not converge.
-  SolveReport solve(double* right_hand_side, double absolute, lattice::Field<double>& displacement);
+  SolveReport solve(double* right_hand_side, double absolute, lattice::Field<double>& displacement) {
+    return solve(right_hand_side, absolute, displacement, false);
+  }
+  /// The same from where the displacements are, which are not the field `work`.
+  SolveReport improve(double* right_hand_side, lattice::Field<double>& displacement) {
+    return solve(right_hand_side, 0, displacement, true);
+  }
+  /// Makes the multigrid hierarchy anew, from the factors that the cells have by now.
+  void refresh();
 
  private:
+  SolveReport solve(double* right_hand_side, double absolute, lattice::Field<double>& displacement, bool from_there);
+
   const model::Model& model_;
   const StaticOptions& options_;
   double start_;  ///< wall time at which the setup began [s]

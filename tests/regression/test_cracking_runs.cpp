@@ -98,6 +98,32 @@ TEST_F(CrackingRuns, SameBitsOnAnyRanks) {
   EXPECT_TRUE(std::ranges::all_of(damage, [](float omega) { return omega >= 0 && omega <= 1; }));
 }
 
+// In equilibrium ranks agree as far as the solver's tolerance lets them: the same cells crack, by the same factors. The
+// plate is pulled evenly, which leaves nothing closed.
+TEST_F(CrackingRuns, EventsAreTheSameOnTwoRanks) {
+  const std::string events =
+      "run plate.toml --quiet --set analysis='{type=\"static\", events=60}' --set "
+      "output='{fields=[\"damage\"], every_events=25}' --set boundary.pull.history='[[\"0 s\", 1]]' --out ";
+  ASSERT_EQ(koshi(events + "one").code, 0);
+  ASSERT_EQ(koshi(events + "two --ranks 2").code, 0);
+  const auto one = io::read_history(directory_ / "one/history.csv"),
+             two = io::read_history(directory_ / "two/history.csv");
+  ASSERT_EQ(one.size(), two.size());
+  EXPECT_EQ(one[0].name, "event");
+  EXPECT_EQ(one[1].name, "load factor");
+  ASSERT_EQ(one[1].values.size(), 61u);
+  ASSERT_EQ(two[1].values.size(), 61u);
+  for (std::size_t row = 0; row < 61; ++row)
+    EXPECT_NEAR(two[1].values[row] / std::max(one[1].values[row], 1e-3), one[1].values[row] == 0 ? 0 : 1, 1e-5) << row;
+  EXPECT_EQ(io::list_samples(directory_ / "one").size(), 3u);
+  const auto analysis = summary("one").at("analysis");
+  EXPECT_EQ(analysis.at("reason"), "number of events");
+  EXPECT_EQ(analysis.at("events"), 60);
+  EXPECT_GT(analysis.at("cracked_cells"), 5);
+  EXPECT_EQ(analysis.at("cracked_cells"), summary("two").at("analysis").at("cracked_cells"));
+  EXPECT_GT(analysis.at("peak").at("event"), 0);
+}
+
 // The checkpoint of a shorter run has cracks that are open and goes on as if nothing had happened, on other ranks too.
 TEST_F(CrackingRuns, RestartsGoOnWithTheSameBits) {
   ASSERT_EQ(koshi("run plate.toml --quiet --out whole").code, 0);
@@ -143,7 +169,9 @@ TEST_F(CrackingRuns, WrongFractureIsRefusedInWords) {
       {fracture + "law=bonds", "unknown law \"bonds\"; allowed: \"cohesive\", \"none\""},
       {"--set lattice.springs=plain", "plain springs belong to none; use springs = \"shared\""},
       {"--set lattice.calibration=paper", "fracture needs springs that are isotropic"},
-      {"--set analysis='{type=\"static\"}' --set output='{}'", "type = \"static\" follows no cracks"},
+      {"--set analysis.events=5", "\"events\" has no meaning here; it goes with type \"static\""},
+      {"--set output.every_events=5", "every_events counts the events of a static body that cracks"},
+      {"--set analysis='{type=\"static\", events=0}' --set output='{}'", "events is 0; it must lie between 1 and"},
       {"--set analysis='{type=\"modes\"}' --set output='{}'", "type = \"modes\" follows no cracks"},
       {fracture + "law=none", "damage belongs to materials that crack, and there is none"},
   };

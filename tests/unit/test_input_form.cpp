@@ -151,7 +151,7 @@ selection = "all")",
        R"(23:1: error: unknown key "selection" in [[boundary]]; known: "name", "face", "box", "point", "fix", "displacement", "velocity", "twist", "center", "ramp", "history")"},
       {"[output]", R"([output]
 format = "vtk")",
-       R"(36:1: error: unknown key "format" in [output]; known: "fields", "every", "history_every", "checkpoint_every", "checkpoint_every_wall", "report")"},
+       R"(36:1: error: unknown key "format" in [output]; known: "fields", "every", "every_events", "history_every", "checkpoint_every", "checkpoint_every_wall", "report")"},
       {R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"]
 )",
        R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"]

@@ -222,7 +222,7 @@ TEST(Ranges, HaveTheUnitOfTheirKey) {
                 check_units<BoundaryDefinition>() + check_units<LoadDefinition>() + check_units<AnalysisDefinition>() +
                 check_units<DampingDefinition>() + check_units<ProbeDefinition>() + check_units<OutputDefinition>() +
                 check_units<material::Fracture>(),
-            1 + 2 + 9 + 3 + 5 + 9 + 7 + 6 + 6 + 2 + 3 + 4);
+            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 2 + 4 + 4);
 }
 
 // A fracture with nothing wrong but what it is given.

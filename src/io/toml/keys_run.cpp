@@ -38,6 +38,11 @@ const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
       of_stepped(key<D>("damping", &D::damping,
                         "Damping of the motion; unset: local with factor 0.8 for quasi-static, none for dynamic.",
                         {.title = "damping", .example = R"({kind = "local", factor = 0.8})"})),
+      key<D>("events", &D::events,
+             "Of a body that can crack: the most events, in each of which the next cells crack and the equilibrium is "
+             "found anew.",
+             {.range = ranges::event_count, .example = "1000"})
+          .only_for("type \"static\"", {"type"}, [](const D& analysis) { return analysis.type == Type::statics; }),
       key<D>("start_from", &D::start_from,
              "Output directory of an earlier run whose displacements are the start of this one.",
              {.example = R"("out/loaded")"})
@@ -74,6 +79,9 @@ const std::vector<Key<OutputDefinition>>& keys_of(Tag<OutputDefinition>) {
       key<D>("fields", &D::fields, "Fields to write.",
              {.allowed = {field_names.begin(), field_names.end()}, .example = R"(["displacement", "stress"])"}),
       key<D>("every", &D::every, "Simulated time between samples of the fields; unset: the end only.", time),
+      key<D>("every_events", &D::every_events,
+             "Of a static body that cracks: events between samples of the fields; unset: the end only.",
+             {.range = ranges::event_count, .example = "50"}),
       key<D>("history_every", &D::history_every,
              "Simulated time between rows of history.csv; unset: about 200 rows in all.", time),
       key<D>("checkpoint_every", &D::checkpoint_every, "Simulated time between checkpoints.", time),

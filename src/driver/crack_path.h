@@ -1,0 +1,19 @@
+// What a static analysis that follows its cracks has found.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace koshi::driver {
+
+struct CrackPath {
+  std::int64_t events = 0;       ///< rows of the history beside the first
+  std::int64_t cracked = 0;      ///< cells that have cracked
+  std::int64_t parted = 0;       ///< cells that have cracked through
+  std::int64_t peak_event = 0;   ///< at which the body carried the most
+  double peak_load_factor = 0;   ///< on loads and motions at that event
+  std::int64_t hierarchies = 1;  ///< times that the solver's levels were made
+  std::string reason;            ///< why it ended, in words
+};
+
+}  // namespace koshi::driver

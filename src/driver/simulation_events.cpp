@@ -1,0 +1,183 @@
+// Equilibrium that follows its cracks event by event (theory, section 12).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/exact_sum.h"
+#include "driver/simulation.h"
+#include "failure/crack_events.h"
+#include "statics/static_solver.h"
+
+namespace koshi::driver {
+namespace {
+
+// Levels of the solver are made anew when old ones have cost so many iterations more than new ones would have.
+constexpr int patience = 60;
+
+/// Factor on all loads of a model, beside those at the end of their histories; undone at the end.
+class LoadFactor {
+ public:
+  LoadFactor(model::Model& model, double t) : model_(model) {
+    for (model::Load& load : model.loads) {
+      before_.push_back(load.history);
+      at_end_.push_back(model::factor(load.history, t));
+    }
+    set(1);
+  }
+  ~LoadFactor() {
+    for (std::size_t l = 0; l < before_.size(); ++l) model_.loads[l].history = before_[l];
+  }
+  LoadFactor(const LoadFactor&) = delete;
+  LoadFactor& operator=(const LoadFactor&) = delete;
+  void set(double factor) {
+    for (std::size_t l = 0; l < before_.size(); ++l) model_.loads[l].history = {{0, factor * at_end_[l]}};
+  }
+
+ private:
+  model::Model& model_;
+  std::vector<model::History> before_;
+  std::vector<double> at_end_;
+};
+
+/// Two events are joined by a straight line of load over displacement: its work, and how much the body carries.
+class PathWork {
+ public:
+  /// At an event: elastic energy, and work of the supports' present forces on their present motions [J].
+  void add(double factor, double elastic, double of_supports) {
+    const double force = of_supports / factor, motion = (2 * elastic - of_supports) / factor;
+    work_ += 0.5 * (force + force_) * (factor - factor_) + 0.5 * (factor + factor_) * (motion - motion_);
+    force_ = force;
+    motion_ = motion;
+    factor_ = factor;
+    by_motion_ = by_motion_ || of_supports != 0;
+    unit_energy_ = elastic / (factor * factor);
+    if (first_energy_ == 0) first_energy_ = unit_energy_;
+  }
+  double work() const { return work_; }
+  /// Load, in units of its own: the force on moved supports, or the factor on given forces.
+  double load() const { return by_motion_ ? std::abs(force_) : factor_; }
+  /// Stiffness over that of the first event.
+  double stiffness() const { return by_motion_ ? unit_energy_ / first_energy_ : first_energy_ / unit_energy_; }
+
+ private:
+  double work_ = 0, force_ = 0, motion_ = 0, factor_ = 0, unit_energy_ = 0, first_energy_ = 0;
+  bool by_motion_ = false;
+};
+
+}  // namespace
+
+// Work of the supports' forces on the motions of their nodes.
+double Simulation::work_of_supports() {
+  const lattice::Field<double> reactions = meter_->reactions(*state_);
+  ExactSum sum;
+  for (const model::PrescribedMotion& motion : model_->motions)
+    sum += reactions.component(motion.component)[motion.node] *
+           state_->displacement.component(motion.component)[motion.node];
+  sum.sum_ranks(model_->communicator);
+  return sum.value();
+}
+
+Outcome Simulation::run_events(const Observer& observer, const std::vector<std::string>& petsc_options) {
+  const model::Definition& definition = model_->definition;
+  statics::StaticOptions options;
+  options.tolerance = definition.analysis.tolerance;
+  options.petsc_options = petsc_options;
+  options.progress = [&](int, double) {
+    if (observer.breathe) observer.breathe();
+  };
+
+  // The state is that of the unit load between events, when equilibria are sought, and of the event's load at them.
+  cracking()->restore();
+  failure::CrackEvents events(*cracking(), *model_, *state_);
+  const double end = statics::end_time(definition);
+  LoadFactor loads(*model_, end);
+  lattice::Field<double> work(model_->layout(), model_->components());
+  std::vector<double> right_hand_side(static_cast<std::size_t>(model_->layout().owned_count() * model_->components()));
+  statics::StaticSolver solver(*model_, end, work, options);
+  solver.equilibrium().right_hand_side(right_hand_side.data());
+  solver.free().require_balance(right_hand_side.data());
+
+  Outcome outcome;
+  CrackPath& path = outcome.path.emplace();
+  PathWork balance;
+  const auto sample = [&](double factor) {
+    outcome.measurement = meter_->measure(*state_, 0);
+    mechanics::Balance& measured = outcome.measurement.balance;
+    if (factor > 0) balance.add(factor, measured.elastic_energy, work_of_supports());
+    measured.load_factor = factor;
+    measured.given = balance.work();
+    measured.cracked = events.taken();
+    state_->time = static_cast<double>(path.events);
+    if (observer.history) observer.history(outcome.measurement, *state_);
+  };
+  state_->displacement.zero();
+  sample(0);
+
+  // One broken layer leaves the whole its trace of stiffness times the layers there are.
+  const Int3& cells = model_->lattice.grid.cells;
+  const double parted =
+      1.5 * failure::CrackEvents::trace * static_cast<double>(std::max({cells[0], cells[1], cells[2]}));
+
+  int least = 0, extra = 0;
+  double factor = 1, peak = 0;
+  for (bool changed = true;;) {
+    // The right-hand side holds forces of prescribed motions, by springs that may be gone.
+    if (changed && path.events > 0) solver.equilibrium().right_hand_side(right_hand_side.data());
+    if (changed) {
+      const statics::SolveReport report = solver.improve(right_hand_side.data(), state_->displacement);
+      if (!outcome.solution) {
+        outcome.solution = report;
+      } else {
+        outcome.solution->iterations += report.iterations;
+        outcome.solution->relative_residual = report.relative_residual;
+        outcome.solution->solve_seconds += report.solve_seconds;
+        // The first solve with new levels tells what they cost.
+        if (least == 0) least = std::max(report.iterations, 1);
+        extra += std::max(report.iterations - least, 0);
+      }
+      if (extra > patience) {
+        solver.refresh();
+        ++path.hierarchies;
+        least = extra = 0;
+      }
+    }
+
+    const double next = events.next();
+    const bool over = !std::isfinite(next);
+    if (!over) factor = next;
+    events.go(factor);
+    loads.set(factor);
+    ++path.events;
+    sample(factor);
+    if (balance.load() > peak) {
+      peak = balance.load();
+      path.peak_event = path.events;
+      path.peak_load_factor = factor;
+    }
+    outcome.stopped = observer.poll && observer.poll(*state_);
+    path.reason = over                                        ? "nothing cracks any more"
+                  : balance.stiffness() < parted              ? "the body has parted"
+                  : path.events >= definition.analysis.events ? "number of events"
+                  : outcome.stopped                           ? "stopped"
+                                                              : "";
+    const bool done = !path.reason.empty();
+    const std::optional<int> every = definition.output.every_events;
+    if (observer.fields && (done || (every && path.events % *every == 0))) observer.fields(*state_, 0);
+    path.cracked = events.cracked();
+    if (observer.progress)
+      observer.progress(
+          static_cast<double>(path.events) / definition.analysis.events,
+          fmt::format("event {}, load factor {:.4g}, {} cells cracked", path.events, factor, path.cracked));
+    if (done) break;
+    changed = events.soften();
+    events.unload();
+    loads.set(1);
+  }
+  path.parted = events.parted();
+  outcome.converged = true;
+  state_->time = end;
+  return outcome;
+}
+
+}  // namespace koshi::driver

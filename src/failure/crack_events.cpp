@@ -1,0 +1,185 @@
+#include "failure/crack_events.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/exact_sum.h"
+#include "lattice/halo.h"
+
+namespace koshi::failure {
+namespace {
+
+constexpr double never = std::numeric_limits<double>::infinity();
+// Cells this close to the first one go with it: symmetric ones differ by the solver's tolerance.
+constexpr double tie = 1e-3;
+// An event takes this of a cell's stress, over the strength at the onset, but no more than half of its stiffness.
+constexpr double tooth = 0.15;
+// A cell with less than this of its strength left breaks.
+constexpr double least_strength = 4e-3;
+
+}  // namespace
+
+CrackEvents::CrackEvents(Cracking& cracking, model::Model& model, model::State& state)
+    : cracking_(cracking), model_(model), state_(state) {
+  state_.face_force.zero();
+  for (const std::int64_t n : cracking_.cracked_) set_factor(n, cracking_.load(n).damage);
+}
+
+void CrackEvents::set_factor(std::int64_t n, double damage) {
+  model_.lattice.factor.component(0)[n] =
+      static_cast<float>(std::max(1 - damage, trace) * static_cast<double>(cracking_.whole_.component(0)[n]));
+  cracking_.limit_.component(0)[n] = static_cast<float>(never);
+}
+
+// Energy that damage takes from a cell between two events, u.K u'/2 with the displacements at both, for each unit of
+// the factor at the second [J/m^3]. From squares of sums and differences; both are made alike in size first.
+double CrackEvents::gain(const Loss& loss) const {
+  const mechanics::CellMotion now = mechanics::cell_motion(model_.lattice, state_.displacement, loss.cell);
+  const auto square = [](const mechanics::CellMotion& motion) {
+    double sum = 0;
+    for (const Vec3& u : motion.displacement) sum += dot(u, u);
+    return sum;
+  };
+  const double size = square(now), scale = size > 0 ? std::sqrt(square(loss.motion) / size) : 0;
+  if (scale == 0) return 0;
+  const auto energy = [&](double sign) {
+    mechanics::CellMotion motion = loss.motion;
+    for (std::size_t a = 0; a < 8; ++a) {
+      motion.displacement[a] = motion.displacement[a] + (sign * scale) * now.displacement[a];
+      motion.rotation[a] = motion.rotation[a] + (sign * scale) * now.rotation[a];
+    }
+    return mechanics::cell_state(model_.lattice, motion, loss.cell).energy;
+  };
+  return loss.damage * (energy(1) - energy(-1)) / (4 * scale * model_.lattice.factor_of(loss.cell));
+}
+
+void CrackEvents::consider(std::int64_t n, double factor) {
+  if (!(factor <= least_ * (1 + tie))) return;
+  least_ = std::min(least_, factor);
+  candidates_.push_back({n, factor});
+}
+
+void CrackEvents::consider_row(std::int64_t j, std::int64_t k) {
+  const lattice::Layout& layout = model_.layout();
+  const std::int64_t cells = layout.owned()[0] + 1, first = layout.index(-1, j, k);
+  const double* u = state_.displacement.component(0) + first;
+  cracking_.strain_rows_(
+      {{u, u + layout.pitch(), u + layout.plane(), u + layout.plane() + layout.pitch()}, state_.displacement.stride()},
+      0.25 / model_.lattice.grid.d, cells, cracking_.mean_.data(), cracking_.radius_.data());
+  const std::uint16_t* material = model_.lattice.cell.component(0) + first;
+  const float* safe = cracking_.limit_.component(0) + first;
+  for (std::int64_t i = 0; i < cells; ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    const double bound = cracking_.bounds_[material[i]](cracking_.mean_[at], cracking_.radius_[at]);
+    if (safe[i] == never) continue;
+    largest_ = std::max(largest_, cracking_.radius_[at]);
+    if (!(bound > 0) || !(safe[i] <= least_ * (1 + tie) * bound)) continue;
+    const std::int64_t n = first + i;
+    const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
+    const Crack crack = cracking_.law(n).ahead(strain, 1);
+    if (crack.kappa > 0) consider(n, crack.limit / crack.kappa);
+  }
+}
+
+// Where a cracked cell is at its strength. A cell of the last event takes more energy on the way there.
+double CrackEvents::factor_of_cracked(std::int64_t n) const {
+  const Crack crack = cracking_.load(n);
+  const CellLaw& law = cracking_.law(n);
+  const auto loss = std::ranges::lower_bound(losses_, n, {}, &Loss::cell);
+  const bool lost = loss != losses_.end() && loss->cell == n;
+  const double equivalent =
+      crack.damage >= 1 ? 0 : law.equivalent(mechanics::cell_strain(model_.lattice, state_.displacement, n));
+  return law.softening(crack).reach(crack.taken, lost ? std::max(loss->gain, 0.0) / crack.onset : 0,
+                                    (1 - crack.damage) * equivalent / crack.limit);
+}
+
+double CrackEvents::next() {
+  for (Loss& loss : losses_) loss.gain = gain(loss);
+  candidates_.clear();
+  least_ = never;
+  largest_ = 0;
+  for (const std::int64_t n : cracking_.cracked_) consider(n, factor_of_cracked(n));
+  const Int3& owned = model_.layout().owned();
+  for (std::int64_t k = -1; k < owned[2]; ++k)
+    for (std::int64_t j = -1; j < owned[1]; ++j)
+      if (cracking_.breakable_[cell_row(model_.layout(), j, k)] != 0) consider_row(j, k);
+  least_ = model_.communicator.min(least_);
+  // Tension that is only rounding of a body under pressure would ask for more.
+  if (least_ * model_.communicator.max(largest_) > 1) least_ = never;
+  return least_;
+}
+
+void CrackEvents::scale(double factor) {
+  double* const u = state_.displacement.data();
+  const std::int64_t size = state_.displacement.stride() * state_.displacement.components();
+  for (std::int64_t i = 0; i < size; ++i) u[i] *= factor;
+}
+
+void CrackEvents::go(double factor) {
+  const double d = model_.lattice.grid.d;
+  for (const Loss& loss : losses_) {
+    Crack crack = cracking_.load(loss.cell);
+    crack.taken = std::min(crack.taken + factor * std::max(loss.gain, 0.0) / crack.onset, crack.ratio);
+    cracking_.store(loss.cell, crack);
+    // The whole loss, with its sign, so that the balance of energy closes.
+    state_.crack.component(Cracking::dissipated)[loss.cell] +=
+        factor * loss.gain * static_cast<double>(cracking_.whole_.component(0)[loss.cell]) * d * d * d;
+  }
+  losses_.clear();
+  factor_ = factor;
+  scale(factor);
+}
+
+bool CrackEvents::soften() {
+  std::erase_if(candidates_, [this](const Candidate& c) { return !(c.factor <= least_ * (1 + tie)); });
+  // In the order of cells in memory, by whatever way they were found.
+  std::ranges::sort(candidates_, {}, &Candidate::cell);
+  const std::size_t before = cracking_.cracked_.size();
+  for (const Candidate& candidate : candidates_) soften(candidate.cell);
+  if (cracking_.cracked_.size() != before) std::sort(cracking_.cracked_.begin(), cracking_.cracked_.end());
+  return model_.communicator.any(!losses_.empty());
+}
+
+void CrackEvents::soften(std::int64_t n) {
+  Crack crack = cracking_.load(n);
+  if (crack.damage >= 1) return;  // its energy has come to its end
+  const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
+  const bool fresh = crack.kappa == 0;
+  if (fresh) crack = cracking_.law(n).ahead(strain, 1);
+  const double equivalent = cracking_.law(n).equivalent(strain);
+  crack.kappa = std::max(crack.kappa, equivalent);
+
+  const double before = 1 - crack.damage, left = before * equivalent / crack.limit;
+  double after = std::max(0.5, 1 - tooth / left) * before;
+  if (crack.ratio <= 1 || left < least_strength || after < trace) after = 0;
+  crack.damage = 1 - after;
+  cracking_.store(n, crack);
+  set_factor(n, crack.damage);
+  losses_.push_back(
+      {n, before - std::max(after, trace), mechanics::cell_motion(model_.lattice, state_.displacement, n)});
+  if (fresh) cracking_.cracked_.push_back(n);
+}
+
+void CrackEvents::unload() {
+  scale(1 / factor_);
+  factor_ = 1;
+}
+
+double CrackEvents::taken() const {
+  ExactSum sum;
+  lattice::for_each_owned(model_.layout(),
+                          [&](auto, auto, auto, auto n) { sum += state_.crack.component(Cracking::dissipated)[n]; });
+  sum.sum_ranks(model_.communicator);
+  return sum.value();
+}
+
+std::int64_t CrackEvents::count(double at_least) const {
+  std::int64_t number = 0;
+  lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) {
+    const Crack crack = cracking_.load(n);
+    number += crack.kappa > 0 && crack.damage >= at_least ? 1 : 0;
+  });
+  return model_.communicator.sum(number);
+}
+
+}  // namespace koshi::failure

@@ -1,0 +1,71 @@
+// Cracks of a body in equilibrium, event by event: at which load the next cells crack, how they soften there, and the
+// energy that takes (theory, section 12, "In equilibrium").
+#pragma once
+
+#include <vector>
+
+#include "failure/cracking.h"
+
+namespace koshi::failure {
+
+/// Softens the cells of a model one group at a time, in steps of their stiffness. As in Cracking, whose cells these
+/// are, every rank follows all cells that touch its nodes. Displacements are those of the unit load, times a factor.
+class CrackEvents {
+ public:
+  /// Stiffness that broken cells keep, over that of whole ones. Nodes between them hang on it.
+  static constexpr double trace = 1e-6;
+
+  /// `cracking` is that of the model and the state, made or restored before. Closed faces carry nothing from then on,
+  /// and cells that have cracked through keep a trace of their springs, which holds the nodes on them.
+  CrackEvents(Cracking& cracking, model::Model& model, model::State& state);
+
+  /// The factor on the state's displacements (ghosts up to date) at which something happens next (collective):
+  /// infinite when nothing does, or only where whole cells would be strained by more than 1.
+  double next();
+
+  /// Goes there: the displacements, ghosts too, and what the last cells have lost on the way (collective).
+  void go(double factor);
+  /// Softens the cells that are at their strength now, with those within a thousandth of it; false where a crack has
+  /// only come to the end of its energy (collective).
+  bool soften();
+  /// Goes back to the unit load, for the next solve (collective).
+  void unload();
+
+  /// Energy [J] that cracks have taken so far (collective).
+  double taken() const;
+  /// Cells that have cracked, and those that have cracked through (collective).
+  std::int64_t cracked() const { return count(0); }
+  std::int64_t parted() const { return count(1); }
+
+ private:
+  /// A cell that lost springs at the last event: the energy of that is known at the next one.
+  struct Loss {
+    std::int64_t cell;
+    double damage;                 ///< lost
+    mechanics::CellMotion motion;  ///< at the event
+    double gain = 0;               ///< energy [J/m^3] that this takes, for each unit of the next event's factor
+  };
+  struct Candidate {
+    std::int64_t cell;
+    double factor;
+  };
+  void consider(std::int64_t n, double factor);
+  void consider_row(std::int64_t j, std::int64_t k);
+  double gain(const Loss& loss) const;
+  double factor_of_cracked(std::int64_t n) const;
+  void soften(std::int64_t n);
+  void set_factor(std::int64_t n, double damage);
+  void scale(double factor);
+  std::int64_t count(double at_least) const;
+
+  Cracking& cracking_;
+  model::Model& model_;
+  model::State& state_;
+  std::vector<Loss> losses_;  ///< ascending
+  std::vector<Candidate> candidates_;
+  double least_ = 0;    ///< factor of the first candidate
+  double largest_ = 0;  ///< radius of the strain's deviator among whole cells
+  double factor_ = 1;   ///< of the displacements now
+};
+
+}  // namespace koshi::failure
