@@ -240,6 +240,18 @@ def tunnel(maker):
     return side_by_side(body, drawn(fig))
 
 
+def l_panel(maker):
+    """The force on the jack over its lift, event by event, beside the largest one measured."""
+    results = Results(maker.run("12_l_panel"))
+    lift, force = np.array(results.history("load factor")), 1e-2 * np.array(results.history("jack.reaction.y"))
+    fig, ax = figure()
+    ax.plot(lift, force, color=BLUE, linewidth=1, label="Koshi, all events")
+    ax.plot(0.2078, 7.2191, "k*", markersize=16, label="the largest force measured")  # expected.py
+    ax.set(xlabel="lift of the jack [mm]", ylabel="force on the jack [kN]", title="L-shaped panel", xlim=(0, None), ylim=(0, 8))
+    ax.legend(loc="lower right")
+    return drawn(fig)
+
+
 def tuning_fork(maker):
     return side_by_side(*maker.bodies("50_tuning_fork", ["sample=0"], ["sample=2"], look="y"))
 
@@ -270,7 +282,7 @@ def sandstone(maker):
 PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
             "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
             "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
-            "10_tunnel": tunnel, "30_sandstone": sandstone, "50_tuning_fork": tuning_fork}
+            "10_tunnel": tunnel, "12_l_panel": l_panel, "30_sandstone": sandstone, "50_tuning_fork": tuning_fork}
 
 
 def main():
