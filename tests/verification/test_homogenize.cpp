@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "support/first_ranks.h"
 #include "support/periodic_block.h"
@@ -129,6 +130,38 @@ TEST(Homogenize, EqualShearModuliGiveHillsBulkModulus) {
     EXPECT_LT(found.asymmetry, 1e-8);
   }
   EXPECT_GT(coarse_error, 0);
+}
+
+// Shear along a square array of cylindrical holes is conduction around them. Perrins, McKenzie and McPhedran 1979,
+// Proc. R. Soc. Lond. A 369, 207, with T = 1 for holes: 1 - 2 f / (1 + f - 0.305827 f^4 / (1 - 1.402958 f^8) - 0.013362
+// f^8). Cells are filled by the share of 8 x 8 points that are outside a hole; at 32 cells a period 0.3 % are left.
+TEST(Homogenize, CylindricalHolesMeetTheSeries) {
+  constexpr std::int64_t n = 32, points = 8;
+  const Int3 cells{n, n, 2};
+  int compared = 0;
+  for (const double f : {0.2, 0.5}) {
+    model::Definition definition = periodic_block(cells);
+    definition.analysis.tolerance = 1e-8;
+    fill(definition, cells, [&](const Int3& c) {
+      int outside = 0;
+      for (std::int64_t j = 0; j < points; ++j)
+        for (std::int64_t i = 0; i < points; ++i) {
+          const double x = (static_cast<double>(points * c[0] + i) + 0.5) / (n * points) - 0.5;
+          const double y = (static_cast<double>(points * c[1] + j) + 0.5) / (n * points) - 0.5;
+          outside += x * x + y * y >= f / std::numbers::pi;
+        }
+      definition.body.factors.push_back(outside == 0 ? 1.0F : static_cast<float>(outside) / (points * points));
+      return outside == 0 ? 0 : 1;
+    });
+    const homogenize::Effective found = effective(definition, Communicator::self());
+    const double f4 = std::pow(f, 4), f8 = f4 * f4;
+    const double series = 1 - 2 * f / (1 + f - 0.305827 * f4 / (1 - 1.402958 * f8) - 0.013362 * f8);
+    for (const std::size_t shear : {3, 4}) {
+      EXPECT_NEAR(found.stiffness.voigt[shear][shear] / elastics[0].mu() / series, 1, 3e-3) << f << shear;
+      ++compared;
+    }
+  }
+  EXPECT_EQ(compared, 4);
 }
 
 TEST(Homogenize, AnIslandInVoidsCarriesNothing) {
