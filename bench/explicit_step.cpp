@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "failure/cracking.h"
 #include "koshi/dynamics.h"
 #include "koshi/model.h"
 
@@ -16,6 +18,9 @@ using lattice::CellType;
 using material::Calibration;
 using material::Kinematics;
 
+// Whether the cells are looked at for cracks, and whether one in a hundred has one.
+enum class Cracks { none, looked_for, some };
+
 struct Choice {
   const char* name;
   CellType cell;
@@ -24,6 +29,7 @@ struct Choice {
   double nu;
   int materials;         // 1: uniform block; more: every cell one of them at random
   bool factors = false;  // every cell has a factor of its own
+  Cracks cracks = Cracks::none;
 };
 
 constexpr Choice choices[] = {
@@ -35,6 +41,10 @@ constexpr Choice choices[] = {
     {"Cube-II, least-squares", CellType::cube_ii, Calibration::isotropic, Kinematics::least_squares, 0.18, 1},
     {"Cube-III volumetric, least-squares", CellType::cube_iii, Calibration::bending_exact, Kinematics::least_squares,
      0.18, 1},
+    {"Cube-III volumetric, rotational, may crack", CellType::cube_iii, Calibration::bending_exact,
+     Kinematics::rotational, 0.18, 1, false, Cracks::looked_for},
+    {"Cube-III volumetric, rotational, 1 % of the cells cracked", CellType::cube_iii, Calibration::bending_exact,
+     Kinematics::rotational, 0.18, 1, false, Cracks::some},
     {"Cube-III volumetric, rotational, 2 materials mixed", CellType::cube_iii, Calibration::bending_exact,
      Kinematics::rotational, 0.18, 2},
     {"Cube-III volumetric, rotational, 3 materials mixed", CellType::cube_iii, Calibration::bending_exact,
@@ -77,6 +87,11 @@ model::Definition block(const Choice& choice, int nodes) {
       factor = static_cast<float>(random >> 8) / (1u << 24);
     }
   }
+  // Far stronger than the motion asks for: no cell cracks while the clock runs.
+  material::Fracture strong;
+  strong.tensile_strength = strong.fracture_energy = 1e6;
+  if (choice.cracks != Cracks::none)
+    for (model::MaterialDefinition& material : definition.materials) material.fracture = strong;
   model::BoundaryDefinition bottom;
   bottom.name = "bottom";
   bottom.selection.face = model::Face::z_min;
@@ -88,15 +103,27 @@ model::Definition block(const Choice& choice, int nodes) {
   return definition;
 }
 
+// Gives one cell in a hundred a crack that is half through, across x: some of them are closed at any time.
+void crack_some(const model::Model& model, model::State& motion) {
+  lattice::for_each_owned(model.layout(), [&](auto i, auto j, auto k, auto n) {
+    if (model.lattice.cell.component(0)[n] == 0 || (7 * i + 31 * j + 57 * k) % 100 != 0) return;
+    motion.crack.component(0)[n] = 0.5;
+    for (int part = 1; part < 7; ++part) motion.crack.component(part)[n] = 1;
+  });
+}
+
 void explicit_step(benchmark::State& state, const Choice& choice) {
   const int nodes = static_cast<int>(state.range(0));
-  const model::Model model = model::make_model(block(choice, nodes), Communicator::world());
+  model::Model model = model::make_model(block(choice, nodes), Communicator::world());
   model::State motion(model);
   for (int c = 0; c < model.components(); ++c)
     lattice::for_each_owned(model.layout(), [&](auto i, auto j, auto k, auto n) {
       motion.velocity.component(c)[n] = 1e-6 * static_cast<double>((i + 2 * j + 3 * k + c) % 7 - 3);
     });
-  dynamics::ExplicitSolver solver(model, motion, 2e-7);
+  if (choice.cracks == Cracks::some) crack_some(model, motion);
+  std::optional<failure::Cracking> cracking;
+  if (choice.cracks != Cracks::none) cracking.emplace(model, motion);
+  dynamics::ExplicitSolver solver(model, motion, 2e-7, cracking ? &*cracking : nullptr);
   solver.step();
   // The median step: others may use the machine now and then, and a rank waits for its neighbours.
   std::vector<double> seconds;

@@ -46,6 +46,7 @@ PUBLIC = {
     "springs.h": "material",
     "calibration.h": "material",
     "fracture.h": "material",
+    "scatter.h": "material",
     "spring_lattice.h": "model",
     "definition.h": "model",
     "model.h": "model",

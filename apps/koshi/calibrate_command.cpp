@@ -10,6 +10,7 @@
 #include "base/suggest.h"
 #include "calibration/calibrate.h"
 #include "commands.h"
+#include "driver/strength_tests.h"
 #include "io/units.h"
 #include "koshi/error.h"
 #include "model/choices.h"
@@ -27,6 +28,8 @@ struct Options {
   std::string springs = "shared", calibration, kinematics = "rotational";
   std::vector<std::string> equations;
   std::string axes = "xyz";
+  bool strength = false;
+  std::string tensile_strength, fracture_energy, softening = "exponential", cohesion, friction_angle = "0 deg";
   bool json = false;
   std::string dispersion;
 };
@@ -62,6 +65,31 @@ model::LatticeDefinition read_lattice(const Options& options) {
   return lattice;
 }
 
+// What --strength tests; empty without it.
+std::optional<material::Fracture> read_fracture(const Options& options) {
+  if (!options.strength) {
+    for (const auto& [option, given] : {std::pair{"--tensile-strength", !options.tensile_strength.empty()},
+                                        {"--fracture-energy", !options.fracture_energy.empty()},
+                                        {"--cohesion", !options.cohesion.empty()}})
+      if (given) throw InputError(Place{option}, "belongs to the tests of strength; add --strength, or leave it out");
+    return std::nullopt;
+  }
+  if (options.tensile_strength.empty() || options.fracture_energy.empty())
+    throw InputError(Place{"--strength"},
+                     "needs --tensile-strength such as \"3 MPa\" and --fracture-energy such as \"100 J/m^2\"");
+  material::Fracture fracture;
+  fracture.tensile_strength =
+      quantity("tensile-strength", options.tensile_strength, io::Dimension::pressure, model::ranges::strength);
+  fracture.fracture_energy = quantity("fracture-energy", options.fracture_energy, io::Dimension::energy_per_area,
+                                      model::ranges::fracture_energy);
+  fracture.softening = choose<material::Softening>("--softening", options.softening);
+  if (!options.cohesion.empty())
+    fracture.cohesion = quantity("cohesion", options.cohesion, io::Dimension::pressure, model::ranges::strength);
+  fracture.friction_angle =
+      quantity("friction-angle", options.friction_angle, io::Dimension::angle, model::ranges::friction_angle);
+  return fracture;
+}
+
 void run(const Options& options) {
   const model::LatticeDefinition lattice = read_lattice(options);
   const material::Elastic elastic{
@@ -75,11 +103,18 @@ void run(const Options& options) {
       (*size)[axis] = quantity("size", options.size[axis], io::Dimension::length, model::ranges::size);
   }
 
+  const std::optional<material::Fracture> fracture = read_fracture(options);
+
   const calibration::Calibrated calibrated = calibration::calibrate(lattice, elastic, size);
-  if (options.json)
-    std::cout << calibration::calibration_json(calibrated).dump(2) << '\n';
-  else
-    std::cout << calibration::calibration_report(calibrated);
+  std::optional<driver::StrengthReport> strength;
+  if (fracture) strength = driver::test_strength(lattice, elastic, *fracture);
+  if (options.json) {
+    nlohmann::ordered_json json = calibration::calibration_json(calibrated);
+    if (strength) json["strength"] = driver::strength_json(*strength);
+    std::cout << json.dump(2) << '\n';
+  } else {
+    std::cout << calibration::calibration_report(calibrated) << (strength ? driver::strength_text(*strength) : "");
+  }
   if (!options.dispersion.empty()) {
     std::ofstream file(options.dispersion);
     if (!(file << calibration::dispersion_csv(calibrated) << std::flush))
@@ -116,6 +151,15 @@ void add_calibrate_command(CLI::App& app) {
                    "Calibration paper: entries of C set equal to the elastic tensor, such as C1122 C1212")
       ->expected(1, 2);
   command->add_option("--axes", options->axes, "Calibration paper: which body axes are 1, 2, 3 of C")
+      ->capture_default_str();
+  command->add_flag("--strength", options->strength,
+                    "Also break small blocks along [100], [110] and [111]: strength, energy of cracks, spacing limit");
+  command->add_option("--tensile-strength", options->tensile_strength, "With --strength, such as \"3 MPa\"");
+  command->add_option("--fracture-energy", options->fracture_energy, "With --strength, such as \"100 J/m^2\"");
+  command->add_option("--softening", options->softening, "With --strength: exponential or linear")
+      ->capture_default_str();
+  command->add_option("--cohesion", options->cohesion, "With --strength, such as \"8 MPa\"; unset: no shear limit");
+  command->add_option("--friction-angle", options->friction_angle, "With --strength and --cohesion")
       ->capture_default_str();
   command->add_flag("--json", options->json, "Print JSON in SI units");
   command->add_option("--dispersion", options->dispersion, "Write wave speeds over wavelength to this CSV file");

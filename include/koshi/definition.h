@@ -15,6 +15,7 @@
 #include "koshi/fracture.h"
 #include "koshi/lattice.h"
 #include "koshi/scan.h"
+#include "koshi/scatter.h"
 #include "koshi/springs.h"
 
 namespace koshi::model {
@@ -35,6 +36,15 @@ struct LatticeDefinition {
   bool operator==(const LatticeDefinition&) const = default;
 };
 
+/// [body.grain_boundary]: solid cells with a face neighbour of another grain; exactly one of material and strength.
+struct GrainBoundaryDefinition {
+  std::string labels;              ///< file of whole numbers, one for each grain; empty: a grain is one of a material
+  std::string material;            ///< that these cells become; empty: they stay what they are
+  std::optional<double> strength;  ///< factor on their strength, > 0
+  std::vector<std::int32_t> label_of_cells;  ///< x fastest; filled from the file, or by a program
+  bool operator==(const GrainBoundaryDefinition&) const = default;
+};
+
 /// [body]
 struct BodyDefinition {
   Vec3 origin{};                               ///< lower corner [m]
@@ -51,14 +61,18 @@ struct BodyDefinition {
   std::vector<float> factors;
   /// Share of its material's density in each cell, x fastest, 0 ... 1; empty: all 1; filled from the image.
   std::vector<float> density_shares;
+  std::string strength;          ///< file of factors on the strength of the cells, in the same formats; empty: all 1
+  std::vector<float> strengths;  ///< of each cell, x fastest, > 0; empty: all 1; filled from the file, or by a program
+  std::optional<GrainBoundaryDefinition> grain_boundary{};  ///< unset: grains hold together as they are
   bool operator==(const BodyDefinition&) const = default;
 };
 
 /// [material.NAME]
 struct MaterialDefinition {
-  std::string name;                              ///< not "void"
-  material::Elastic elastic;                     ///< E, nu, density
-  std::optional<material::Fracture> fracture{};  ///< unset: it does not crack
+  std::string name;                                      ///< not "void"
+  material::Elastic elastic;                             ///< E, nu, density
+  std::optional<material::Fracture> fracture{};          ///< unset: it does not crack
+  std::optional<material::Scatter> stiffness_scatter{};  ///< of E from cell to cell; unset: none
   bool cracks() const { return fracture && fracture->law != material::FractureLaw::none; }  ///< may crack
   bool operator==(const MaterialDefinition&) const = default;
 };
@@ -81,6 +95,21 @@ struct RegionDefinition {
   double scale = 1;                  ///< stl: length of the file's unit [m]
   std::vector<std::uint8_t> inside;  ///< stl: 1 for each cell inside, x fastest; filled from the file
   bool operator==(const RegionDefinition&) const = default;
+};
+
+/// [[crack]]: the cells that a piece of a plane cuts have cracked along it before the run begins.
+struct CrackDefinition {
+  /// The plane's piece.
+  enum class Shape { disc, rectangle };
+  std::string name;           ///< for messages
+  Shape shape = Shape::disc;  ///< decides which members count
+  Vec3 center{};              ///< [m]
+  Vec3 normal{};              ///< of the plane
+  double radius = 0;          ///< disc [m]
+  Vec3 along{};               ///< rectangle: direction of its length; what of it lies in the plane
+  double length = 0;          ///< rectangle: side along that [m]
+  double width = 0;           ///< rectangle: other side [m]
+  bool operator==(const CrackDefinition&) const = default;
 };
 
 /// Faces of the box of cells.
@@ -139,6 +168,15 @@ struct DampingDefinition {
   bool operator==(const DampingDefinition&) const = default;
 };
 
+/// [analysis.stop_when]: ends the run at the first sample of the history at which one of its conditions holds.
+struct StopDefinition {
+  std::string probe;         ///< of a reaction; empty: no such condition
+  double below = 0;          ///< the reaction's size has fallen below this part of its largest, 0 < below < 1
+  std::optional<Face> face;  ///< a cell at this face of the box has cracked through; unset: no such condition
+  double after = 0;          ///< [s], nothing ends the run before
+  bool operator==(const StopDefinition&) const = default;
+};
+
 /// [analysis]
 struct AnalysisDefinition {
   /// Equilibrium at once, equilibrium by damped steps, motion, or free vibrations.
@@ -146,16 +184,17 @@ struct AnalysisDefinition {
   Type type = Type::statics;  ///< what is computed
   /// Statics: relative residual; quasi-static: unbalanced-force ratio; modes: relative error of squared frequencies.
   double tolerance = 1e-8;
-  std::optional<double> duration;    ///< [s], required for dynamic; quasi-static: the most simulated time
-  std::optional<double> time_step;   ///< [s]; unset: "auto"
-  bool allow_unstable_step = false;  ///< run with a step above the stable limit all the same
-  double safety = 0.9;               ///< of the automatic step: its ratio to the stable limit
-  DampingDefinition damping;         ///< unset in a dynamic run: none
-  int events = 1000;                 ///< statics of a body that can crack: the most events of cracking
-  std::string start_from;            ///< output directory of an earlier run whose displacements are the start
-  int count = 10;                    ///< modes
-  double near = 0;                   ///< modes: those closest to this frequency [Hz]; 0: the lowest
-  bool allow_floating = false;       ///< modes: of a body in several parts of which some are free
+  std::optional<double> duration;             ///< [s], required for dynamic; quasi-static: the most simulated time
+  std::optional<double> time_step;            ///< [s]; unset: "auto"
+  bool allow_unstable_step = false;           ///< run with a step above the stable limit all the same
+  double safety = 0.9;                        ///< of the automatic step: its ratio to the stable limit
+  DampingDefinition damping;                  ///< unset in a dynamic run: none
+  int events = 1000;                          ///< statics of a body that can crack: the most events of cracking
+  std::optional<StopDefinition> stop_when{};  ///< unset: the run goes on to its end
+  std::string start_from;                     ///< output directory of an earlier run whose displacements are the start
+  int count = 10;                             ///< modes
+  double near = 0;                            ///< modes: those closest to this frequency [Hz]; 0: the lowest
+  bool allow_floating = false;                ///< modes: of a body in several parts of which some are free
 
   /// Whether time goes on in steps.
   bool stepped() const { return type == Type::quasi_static || type == Type::dynamic; }
@@ -184,8 +223,8 @@ struct ProbeDefinition {
 
 /// [output]
 struct OutputDefinition {
-  /// displacement, rotation, orientation, velocity, reaction, strain, stress, material, energy, damage; unset:
-  /// displacement.
+  /// displacement, rotation, orientation, velocity, reaction, strain, stress, material, energy, damage,
+  /// crack_opening; unset: displacement.
   std::vector<std::string> fields{"displacement"};
   std::optional<double> every;             ///< [s] simulated time between field samples; unset: the end only
   std::optional<int> every_events;         ///< events of cracking between field samples; unset: the end only
@@ -193,6 +232,7 @@ struct OutputDefinition {
   std::optional<double> checkpoint_every;  ///< [s] simulated time
   std::optional<double> checkpoint_wall;   ///< [s] wall time; key checkpoint_every_wall
   bool report = false;                     ///< write report.html
+  bool crack_surface = false;              ///< write the surface of the cracks with each sample
   bool operator==(const OutputDefinition&) const = default;
 };
 
@@ -215,6 +255,7 @@ struct Definition {
   BodyDefinition body;                         ///< [body]
   std::vector<MaterialDefinition> materials;   ///< [material.NAME]; index 1 in a cell is the first
   std::vector<RegionDefinition> regions;       ///< [[region]], later ones win
+  std::vector<CrackDefinition> pre_cracks;     ///< [[crack]]
   std::vector<BoundaryDefinition> boundaries;  ///< [[boundary]]
   std::vector<LoadDefinition> loads;           ///< [[load]]
   AnalysisDefinition analysis;                 ///< [analysis]
@@ -230,6 +271,10 @@ struct Definition {
   bool cracks() const;
   /// Whether this is an equilibrium that follows its cracks event by event.
   bool cracks_in_equilibrium() const { return analysis.type == AnalysisDefinition::Type::statics && cracks(); }
+  /// Whether the stiffness of some material scatters.
+  bool varies_in_stiffness() const;
+  /// Whether some material can crack, and its cells do not all have its strength.
+  bool varies_in_strength() const;
 
   /// Equal input; where it stood (places, directory) counts nothing.
   bool operator==(const Definition& other) const;

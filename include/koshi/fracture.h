@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include "koshi/scatter.h"
+
 namespace koshi::material {
 
 /// Whether a material cracks: cells that lose their springs by the energy a crack takes, or never.
@@ -21,6 +23,7 @@ struct Fracture {
   double friction_angle = 0;                     ///< phi of the intact material [rad], 0 <= phi < pi/2, with a cohesion
   double residual_friction_angle = 0;            ///< of the crack's faces on each other [rad], 0 <= phi_r < pi/2
   Softening softening = Softening::exponential;  ///< of the cell that cracks
+  std::optional<Scatter> strength_scatter{};     ///< of f_t and c, alike, from cell to cell; unset: none
 
   /// (1 + sin phi)/(1 - sin phi): growth of the compressive strength with the confining pressure.
   double confinement_factor() const { return (1 + std::sin(friction_angle)) / (1 - std::sin(friction_angle)); }

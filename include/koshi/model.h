@@ -51,6 +51,8 @@ struct Model {
   /// Component 0: mass [kg]; 1 (rotational kinematics): rotational inertia [kg m^2]. Zero where there is no cell, in
   /// ghosts and padding.
   lattice::Field<double> inertia;
+  /// Factors on the strength of cells, as SpringLattice::factor on their stiffness; no components where all are 1.
+  lattice::Field<float> strength;
   std::vector<PrescribedMotion> motions;  ///< sorted by node, then component
   std::vector<Load> loads;                ///< by load of the definition
   std::vector<Probe> probes;              ///< by probe of the definition
@@ -60,6 +62,10 @@ struct Model {
 
   int components() const { return lattice.components(); }           ///< unknowns per node, 6 or 3
   const lattice::Layout& layout() const { return lattice.layout; }  ///< of this rank's nodes
+  /// Factor on the strength of the cell at index n.
+  double strength_of(std::int64_t n) const {
+    return strength.components() == 0 ? 1 : static_cast<double>(strength.component(0)[n]);
+  }
   double volume() const {
     return static_cast<double>(cell_count) * lattice.grid.d * lattice.grid.d * lattice.grid.d;
   }  ///< of the body [m^3]
@@ -80,7 +86,13 @@ double factor(const BoundaryDefinition& boundary, double t);
 double predicted_memory(const Definition& definition, int ranks);
 
 /// Components of State::crack.
-inline constexpr int crack_components = 13;
+inline constexpr int crack_components = 15;
+
+/// Among them: when the cell cracked through.
+inline constexpr int crack_moment = 13;
+
+/// Damage from which on a cell counts as cracked through: as part of a crack's surface, in its catalogue, at a face.
+inline constexpr double parted = 0.9;
 
 /// What changes during a run. Component order: ux, uy, uz [m], rx, ry, rz [rad] (three components with least-squares).
 struct State {
@@ -90,12 +102,14 @@ struct State {
   lattice::Field<double> orientation;
   /// Of cells at their lowest corner: damage, largest equivalent strain, that at the onset, energy [J/m^3] at the
   /// onset, what the crack takes in all and what it has taken over that, its normal and slip (3 each), energy that it
-  /// and its friction took [J]; no components unless a material can crack.
+  /// and its friction took [J], time [s] at which its damage passed `parted` (0: not, or before the run), 1 if it began
+  /// by the shear limit; no components unless a material can crack.
   lattice::Field<double> crack;
   /// In the same case, of nodes: forces of closed crack faces [N]; follows from the others.
   lattice::Field<double> face_force;
   /// In the same case, of nodes: energy that loads and supports gave, and that damping took [J].
   lattice::Field<double> work;
+  double peak_force = 0;  ///< largest reaction so far of the probe that analysis.stop_when looks at [N]
   double time = 0;        ///< [s]
   std::int64_t step = 0;  ///< explicit steps so far
   double time_step = 0;   ///< [s], of the run that took them; 0: none yet

@@ -56,6 +56,9 @@ SpringLattice make_cells(const lattice::Grid& grid, std::shared_ptr<const lattic
 /// Gives the cells factors: `factor_of(global cell)`, 0 ... 1.
 void make_factors(SpringLattice& body, const std::function<float(const Int3&)>& factor_of);
 
+/// Calls f(global cell, index) for the cells that touch an owned node; cells outside the body are left out.
+void for_each_cell(const SpringLattice& body, const std::function<void(const Int3&, std::int64_t)>& f);
+
 /// Bonds of the whole body by slot (collective): with plain springs each counts one, with shared springs the part of it
 /// that its solid cells own. Families the unit cell lacks are counted as if they were there.
 std::array<double, lattice::slot_count> count_bonds(const SpringLattice& body, material::Sharing sharing);

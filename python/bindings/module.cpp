@@ -19,25 +19,36 @@ namespace koshi::python {
 namespace {
 
 using Values = py::array_t<std::int64_t, py::array::c_style>;
+using Factors = py::array_t<float, py::array::c_style>;
 
-// Materials of the cells from an array [z][y][x] in place of the file that body.image names.
-void set_cells(model::Definition& definition, const Values& values) {
+// An array [z][y][x] in place of a file with a value for each cell; numpy has made its values whole or single.
+template <class T>
+io::CellImage image_of(const py::array_t<T, py::array::c_style>& values) {
   const Int3 cells{values.shape(2), values.shape(1), values.shape(0)};
-  const io::CellImage image{cells, {1, cells[0], cells[0] * cells[1]}, [data = values.data()](std::int64_t i) {
-                              return static_cast<double>(data[i]);
-                            }};
-  io::set_cells(image, definition);
+  return {cells, {1, cells[0], cells[0] * cells[1]}, [data = values.data()](std::int64_t i) {
+            return static_cast<double>(data[i]);
+          }};
+}
+
+// Each sets what the file would have given, and forgets the file.
+void set_cells(model::Definition& definition, const Values& values) {
+  io::set_cells(image_of(values), definition);
   definition.body.image.clear();
 }
 
-// Factors of the cells from an array [z][y][x] in place of the file that body.factor names.
-void set_factors(model::Definition& definition, const py::array_t<float, py::array::c_style>& values) {
-  const Int3 cells{values.shape(2), values.shape(1), values.shape(0)};
-  const io::CellImage image{cells, {1, cells[0], cells[0] * cells[1]}, [data = values.data()](std::int64_t i) {
-                              return static_cast<double>(data[i]);
-                            }};
-  io::set_factors(image, definition);
+void set_factors(model::Definition& definition, const Factors& values) {
+  io::set_factors(image_of(values), definition);
   definition.body.factor.clear();
+}
+
+void set_strengths(model::Definition& definition, const Factors& values) {
+  io::set_strengths(image_of(values), definition);
+  definition.body.strength.clear();
+}
+
+void set_grain_labels(model::Definition& definition, const Values& values) {
+  io::set_grain_labels(image_of(values), definition);
+  definition.body.grain_boundary->labels.clear();
 }
 
 std::string calibrate(const model::Definition& definition, bool of_body) {
@@ -65,7 +76,9 @@ PYBIND11_MODULE(_koshi, module) {
   py::class_<model::Definition>(module, "Definition")
       .def("resolved_toml", [](const model::Definition& definition) { return io::resolved_toml(definition); })
       .def("set_cells", python::set_cells)
-      .def("set_factors", python::set_factors);
+      .def("set_factors", python::set_factors)
+      .def("set_strengths", python::set_strengths)
+      .def("set_grain_labels", python::set_grain_labels);
   module.def("read_case", [](const std::string& file, const std::vector<std::string>& overrides) {
     return io::read_case(file, overrides);
   });

@@ -57,6 +57,11 @@ class Body:
     """how the values of the image become cells: crop, axes, coarsen, thresholds, grey ..., and what a raw file holds"""
     factor: str | os.PathLike | np.ndarray | None = None
     """factor 0 ... 1 on the stiffness of each cell: a file, or an array (nz, ny, nx); default 1"""
+    strength: str | os.PathLike | np.ndarray | None = None
+    """factor > 0 on the strength of each cell: a file, or an array (nz, ny, nx); default 1"""
+    grain_boundary: Mapping[str, str | float | os.PathLike | np.ndarray] | None = None
+    """what becomes of cells with a face neighbour of another grain: labels (a file, or an array (nz, ny, nx) of whole
+    numbers; default: the materials), and either material (a name) or strength (a factor > 0)"""
     origin: Vector | None = None
     """lower corner [m], default (0, 0, 0)"""
     periodic: Sequence[str] | Sequence[bool] | None = None
@@ -73,9 +78,12 @@ class Material:
     """-1 < nu < 0.5"""
     density: Quantity
     """[kg/m^3] > 0"""
-    fracture: Mapping[str, Quantity] | None = None
-    """what it takes to crack: tensile_strength [Pa], fracture_energy [J/m^2], law, softening, cohesion [Pa], friction_angle
-    and residual_friction_angle [rad]; default: it never does"""
+    fracture: Mapping[str, Quantity | Mapping[str, Quantity]] | None = None
+    """what it takes to crack: tensile_strength [Pa], fracture_energy [J/m^2], law, softening, cohesion [Pa],
+    friction_angle and residual_friction_angle [rad], strength_scatter; default: it never does"""
+    stiffness_scatter: Mapping[str, Quantity] | None = None
+    """how E differs from cell to cell: distribution with modulus or variation, correlation_length [m], seed; default:
+    not"""
 
 
 @dataclass
@@ -106,6 +114,28 @@ class Region:
     """stl: a closed surface"""
     scale: Quantity | None = None
     """stl: length of the file's unit, default 1 m"""
+
+
+@dataclass
+class Crack:
+    """Cells that a piece of a plane cuts have cracked along it before the run begins."""
+
+    center: Vector
+    """[m]"""
+    normal: Sequence[float]
+    """of the plane"""
+    name: str | None = None
+    """for messages"""
+    shape: Literal["disc", "rectangle"] | None = None
+    """decides which of the others count, default "disc" """
+    radius: Quantity | None = None
+    """disc [m]"""
+    along: Sequence[float] | None = None
+    """rectangle: direction of its length; what of it lies in the plane"""
+    length: Quantity | None = None
+    """rectangle: side along that [m]"""
+    width: Quantity | None = None
+    """rectangle: other side [m]"""
 
 
 @dataclass
@@ -183,6 +213,9 @@ class Analysis:
     """{"kind": "local", "factor": 0.8} (default of quasi-static), {"kind": "viscous", "rate": ...} or {"kind": "none"}"""
     events: int | None = None
     """static, of a body that can crack: the most events, default 1000"""
+    stop_when: Mapping[str, Quantity] | None = None
+    """what ends the run before its time: probe (of a reaction) with below (part of its largest), face (a crack has come
+    to it), after [s]; default nothing"""
     start_from: str | os.PathLike | None = None
     """output directory of an earlier run whose displacements are the start"""
     count: int | None = None
@@ -231,6 +264,8 @@ class Output:
     """wall time between checkpoints [s]"""
     report: bool | None = None
     """write report.html at the end, default False"""
+    crack_surface: bool | None = None
+    """write cracks.vtp with each sample, default False"""
 
 
 @dataclass
@@ -245,6 +280,8 @@ class Case:
     """by name"""
     region: list[Region] = field(default_factory=list)
     """shapes of another material, later ones win"""
+    crack: list[Crack] = field(default_factory=list)
+    """cracks from the start"""
     boundary: list[Boundary] = field(default_factory=list)
     """prescribed motions"""
     load: list[Load] = field(default_factory=list)
@@ -270,7 +307,7 @@ def load(file: str | os.PathLike, overrides: Sequence[str] = ()) -> Case:
     """
     values = tomllib.loads(_koshi.read_case(os.fspath(file), list(overrides)).resolved_toml())
     tables = {"lattice": Lattice, "body": Body, "analysis": Analysis, "output": Output}
-    lists = {"region": Region, "boundary": Boundary, "load": Load, "probe": Probe}
+    lists = {"region": Region, "crack": Crack, "boundary": Boundary, "load": Load, "probe": Probe}
     parts: dict = {"material": {name: Material(**m) for name, m in values["material"].items()}}
     parts |= {name: cls(**values[name]) for name, cls in tables.items()}
     parts |= {name: [cls(**entry) for entry in values.get(name, [])] for name, cls in lists.items()}
@@ -299,9 +336,11 @@ def _is_empty(value) -> bool:
 def _definition(case: Case | str | os.PathLike, overrides: Sequence[str] = ()) -> _koshi.Definition:
     if isinstance(case, (str, os.PathLike)):
         return _koshi.read_case(os.fspath(case), list(overrides))
-    image, factor = case.body.image, case.body.factor
+    image, factor, strength = case.body.image, case.body.factor, case.body.strength
+    grains = case.body.grain_boundary
+    labels = grains.get("labels") if grains else None
     # The reader sees a file's name in place of an array.
-    named = {}
+    named: dict = {}
     if isinstance(image, np.ndarray):
         _check_array("body.image", image, "biu", "whole numbers or bool")
         if case.body.scan is not None:
@@ -310,12 +349,22 @@ def _definition(case: Case | str | os.PathLike, overrides: Sequence[str] = ()) -
     if isinstance(factor, np.ndarray):
         _check_array("body.factor", factor, "biuf", "numbers")
         named["factor"] = "array.npy"
+    if isinstance(strength, np.ndarray):
+        _check_array("body.strength", strength, "biuf", "numbers")
+        named["strength"] = "array.npy"
+    if isinstance(labels, np.ndarray):
+        _check_array("body.grain_boundary.labels", labels, "biu", "whole numbers")
+        named["grain_boundary"] = {**(grains or {}), "labels": "array.npy"}
     case = dataclasses.replace(case, body=dataclasses.replace(case.body, **named))
     definition = _koshi.read_values(_plain(case), list(overrides))
     if "image" in named:
         definition.set_cells(np.ascontiguousarray(image, dtype=np.int64))
     if "factor" in named:
         definition.set_factors(np.ascontiguousarray(factor, dtype=np.float32))
+    if "strength" in named:
+        definition.set_strengths(np.ascontiguousarray(strength, dtype=np.float32))
+    if "grain_boundary" in named:
+        definition.set_grain_labels(np.ascontiguousarray(labels, dtype=np.int64))
     return definition
 
 

@@ -5,6 +5,7 @@
 #include "base/escape.h"
 #include "base/memory.h"
 #include "calibration/calibrate.h"
+#include "driver/scatter_report.h"
 #include "driver/schedule.h"
 #include "driver/simulation.h"
 #include "driver/warnings.h"
@@ -72,6 +73,8 @@ std::string check(const model::Definition& definition, const Communicator& commu
                       model.motion_count, (libraries + body) / 1e9, body / 1e9);
   if (definition.analysis.stepped()) text += explicit_part(model);
   if (definition.analysis.type == model::AnalysisDefinition::Type::modes) text += modes_part(model);
+  for (const ScatterReport& report : scatter_reports(model))
+    text += "scatter       " + escaped(driver::text(report)) + "\n";
   for (const std::string& warning : found) text += "warning       " + escaped(warning) + "\n";
   for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
     text += fmt::format("\n# material {}\n", escaped(definition.materials[m - 1].name)) +

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <csignal>
@@ -9,6 +10,7 @@
 #include "base/progress.h"
 #include "io/checkpoint.h"
 #include "koshi/input.h"
+#include "model/pre_cracks.h"
 
 namespace koshi::driver {
 namespace {
@@ -33,10 +35,14 @@ constexpr const char* time_step_name = "time_step";
 // 1 among them: the checkpoint has the fields of cracks.
 constexpr const char* cracks_name = "cracks";
 
-// What must be equal for a run to go on: everything but the output and how long to run.
+// Largest reaction that analysis.stop_when has seen.
+constexpr const char* peak_force_name = "peak_force";
+
+// What must be equal for a run to go on: everything but the output, how long to run and what ends it before.
 std::string case_text(model::Definition definition) {
   definition.title.clear();
   definition.output = {};
+  definition.analysis.stop_when.reset();
   if (definition.analysis.type == model::AnalysisDefinition::Type::dynamic) definition.analysis.duration = 1;
   if (definition.analysis.type == model::AnalysisDefinition::Type::quasi_static) definition.analysis.duration.reset();
   return io::resolved_toml(definition);
@@ -93,6 +99,7 @@ void Checkpoints::restore(const std::filesystem::path& file, model::State& state
       throw InputError(fmt::format("checkpoint {} has a time step of {} s", file.native(), step->second));
     state.time_step = step->second;
   }
+  if (const auto peak = info.scalars.find(peak_force_name); peak != info.scalars.end()) state.peak_force = peak->second;
   last_ = file;
 }
 
@@ -136,6 +143,7 @@ void Checkpoints::write_to(const std::filesystem::path& directory, model::State&
   info.case_text = case_text_;
   if (state.time_step > 0) info.scalars[time_step_name] = state.time_step;
   if (state.crack.components() != 0) info.scalars[cracks_name] = 1;
+  if (state.peak_force > 0) info.scalars[peak_force_name] = state.peak_force;
   const auto fields = extra_fields(state);
   io::write_checkpoint(directory, model_, state, info, fields);
 }
@@ -153,6 +161,12 @@ void start_from(const std::filesystem::path& directory, const model::Model& mode
   std::vector<io::CheckpointField> cracks;
   if (cracked) cracks.push_back({"crack", &state.crack});
   io::read_checkpoint(directory, model, header.case_text, state, cracks);
+  // Cracks of this case come to those that are there; when those opened was another run's time.
+  if (state.crack.components() != 0) {
+    model::add_cracks(model, state.crack);
+    std::fill_n(state.crack.component(model::crack_moment), state.crack.stride(), 0.0);
+  }
+  state.peak_force = 0;
   state.velocity.zero();
   state.time = 0;
   state.step = 0;

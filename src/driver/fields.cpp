@@ -1,5 +1,6 @@
 #include "driver/fields.h"
 
+#include "driver/cracked_cells.h"
 #include "dynamics/orientation.h"
 #include "lattice/halo.h"
 #include "mechanics/cell_stress.h"
@@ -84,6 +85,12 @@ void FieldSet::add(const std::string& name, const model::Model& model, model::St
     computed(on_cells(model, u, 6, [](const auto& s, int c) { return s.stress[static_cast<std::size_t>(c)]; }),
              tensor_names, true);
   if (name == "damage") fields_.push_back({name, &state.crack, 0, 1, {}, true});
+  if (name == "crack_opening") {
+    Field<double> opening(model.layout(), 1);
+    lattice::for_each_owned(
+        model.layout(), [&](auto, auto, auto, auto n) { opening.component(0)[n] = crack_opening(model, state, n); });
+    computed(std::move(opening), {}, true);
+  }
   if (name == "energy") computed(on_cells(model, u, 1, [](const auto& s, int) { return s.energy; }), {}, true);
 }
 

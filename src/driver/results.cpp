@@ -59,6 +59,7 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
                 {"stable_step", {{"wave", outcome.stable->wave}, {"frequency", outcome.stable->frequency}}},
                 {"residual", outcome.measurement.balance.unbalanced_ratio()},
                 {"converged", outcome.converged}});
+  if (!outcome.stop_reason.empty()) entry["stop_reason"] = outcome.stop_reason;
   return entry;
 }
 
@@ -165,6 +166,9 @@ std::string headline(const model::Model& model, const Outcome& outcome) {
         outcome.seconds,
         1e-6 * static_cast<double>(model.node_count) * static_cast<double>(outcome.steps) / outcome.seconds);
   }
+  if (!outcome.stop_reason.empty())
+    text += fmt::format("  ended at t = {:.6g} s: {}\n", static_cast<double>(outcome.steps) * outcome.time_step,
+                        escaped(outcome.stop_reason));
   for (std::size_t p = 0; p < model.probes.size(); ++p) {
     const model::ProbeDefinition& probe = model.probes[p].definition;
     text += fmt::format("  {} {}: ", escaped(probe.name), mechanics::name_of(probe.quantity));

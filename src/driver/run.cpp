@@ -11,10 +11,12 @@
 #include "base/out_of_memory.h"
 #include "base/progress.h"
 #include "driver/checkpoints.h"
+#include "driver/crack_files.h"
 #include "driver/fields.h"
 #include "driver/mode_tables.h"
 #include "driver/results.h"
 #include "driver/run_simulation.h"
+#include "driver/scatter_report.h"
 #include "io/cell_image.h"
 #include "io/field_writer.h"
 #include "io/history_writer.h"
@@ -37,6 +39,10 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   const std::vector<std::string>& warnings = simulation.prepare();
   if (!options.quiet && communicator.is_root())
     for (const std::string& warning : warnings) log_warning(warning);
+  // Before cracks change the factors.
+  const std::vector<ScatterReport> scatter = scatter_reports(model);
+  if (!options.quiet && communicator.is_root())
+    for (const ScatterReport& report : scatter) log_information("scatter: " + escaped(text(report)));
   const bool modal = definition.analysis.type == model::AnalysisDefinition::Type::modes;
   if (modal && !options.restart.empty())
     throw InputError("a search for modes writes no checkpoints and cannot go on from one; run it without --restart");
@@ -59,6 +65,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   Progress progress(options.quiet || !communicator.is_root(), definition.title.empty() ? "koshi" : definition.title);
 
   Observer observer;
+  nlohmann::ordered_json cracks;
   observer.history = [&](const mechanics::Measurement& measurement, model::State& at) {
     history->write(history_row(model, at.time, measurement));
   };
@@ -67,6 +74,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
       const FieldSet set(definition.output.fields, model, at, simulation.meter());
       field_writer.write(at.time, set.fields());
     });
+    if (definition.cracks() && definition.analysis.stepped()) cracks = write_crack_files(model, at, options.directory);
   };
   observer.progress = [&](double fraction, const std::string& details) {
     progress.update(fraction, details);
@@ -113,7 +121,10 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   if (equilibrium || definition.output.checkpoint_every || definition.output.checkpoint_wall) checkpoints.write(state);
   if (modal) io::write_table(communicator, options.directory / "modes.csv", mode_columns(), mode_rows(*outcome.modes));
   const RunMemory memory{peak_memory(communicator), simulation.memory_before(), resident_memory(communicator)};
-  io::write_summary(communicator, options.directory, summary(model, state, outcome, memory));
+  nlohmann::ordered_json results = summary(model, state, outcome, memory);
+  if (!scatter.empty()) results["scatter"] = json(scatter);
+  if (!cracks.is_null()) results["cracks"] = cracks;
+  io::write_summary(communicator, options.directory, results);
   collectively(communicator, [&] {
     if (definition.output.report && communicator.is_root()) report::write_report(options.directory);
   });
@@ -125,7 +136,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
 }
 
 void require_rest(const model::Model& model, const Outcome& outcome, const std::string& remark) {
-  if (outcome.converged) return;
+  if (outcome.converged || !outcome.stop_reason.empty()) return;
   throw RunError(fmt::format(
       "not at rest after {} steps: unbalanced-force ratio {:.2e}, tolerance {:.2e}; give more time "
       "(analysis.duration), more damping, or a larger tolerance{}",

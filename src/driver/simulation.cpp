@@ -10,6 +10,7 @@
 #include "base/collective.h"
 #include "base/out_of_memory.h"
 #include "driver/schedule.h"
+#include "driver/stop_criteria.h"
 #include "driver/warnings.h"
 #include "koshi/dynamics.h"
 #include "koshi/input.h"
@@ -226,7 +227,8 @@ Outcome Simulation::run_explicit(const Observer& observer) {
       check_divergence(outcome.measurement.balance, observer);
       outcome.converged = !quasi_static || schedule.at_rest(outcome.measurement.balance, state_->time);
     }
-    const bool done = last || (quasi_static && outcome.converged);
+    if (schedule.is_history(step)) outcome.stop_reason = reason_to_stop(*model_, *state_, outcome.measurement);
+    const bool done = last || (quasi_static && outcome.converged) || !outcome.stop_reason.empty();
     if (observer.history && (done || schedule.is_history(step))) observer.history(outcome.measurement, *state_);
     if (observer.fields && (done || schedule.is_field(step))) observer.fields(*state_, schedule.dt());
     if (observer.progress && (done || schedule.is_poll(step)))

@@ -27,6 +27,7 @@ struct Outcome {
   std::optional<modes::ModesReport> modes;       ///< of a search for modes
   std::optional<CrackPath> path;                 ///< static analyses that follow cracks
   bool converged = true;                         ///< quasi-static: the tolerance was reached
+  std::string stop_reason;                       ///< why analysis.stop_when ended it; empty: it did not
   bool stopped = false;                          ///< the observer asked to stop; a static analysis has not converged
   double seconds = 0;                            ///< wall time of stepping or solving
   mechanics::Measurement measurement;            ///< at the end; empty for modes

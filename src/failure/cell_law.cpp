@@ -41,8 +41,8 @@ Crack CellLaw::ahead(const Tensor6& strain, double strength_factor) const {
   crack.onset = energy(strain) / (beyond * beyond);
   // Cells that shear under pressure store much more than the crack of a tensile test takes; they soften by the same
   // law.
-  const double stored =
-      criterion_.shears(stress.value) ? 0.5 * youngs_modulus_ * crack.limit * crack.limit : crack.onset;
+  crack.shear = criterion_.shears(stress.value);
+  const double stored = crack.shear ? 0.5 * youngs_modulus_ * crack.limit * crack.limit : crack.onset;
   crack.ratio = fracture_.fracture_energy / band_width(d_, crack.normal) / stored;
   return crack;
 }

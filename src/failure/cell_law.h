@@ -12,14 +12,15 @@ namespace koshi::failure {
 
 /// What a cracked cell remembers. A cell that never reached its strength has kappa = 0.
 struct Crack {
-  Vec3 normal{};      ///< of the plane that cracked first; stays
-  Vec3 slip{};        ///< of the closed faces over the cell's width
-  double kappa = 0;   ///< largest equivalent strain so far
-  double limit = 0;   ///< equivalent strain at the onset
-  double onset = 0;   ///< elastic energy at the onset [J/m^3]
-  double ratio = 0;   ///< energy that the crack takes in all, over that
-  double taken = 0;   ///< energy that it has taken so far, over that
-  double damage = 0;  ///< omega: the cell's springs count 1 - omega; never falls
+  Vec3 normal{};       ///< of the plane that cracked first; stays
+  Vec3 slip{};         ///< of the closed faces over the cell's width
+  double kappa = 0;    ///< largest equivalent strain so far
+  double limit = 0;    ///< equivalent strain at the onset
+  double onset = 0;    ///< elastic energy at the onset [J/m^3]
+  double ratio = 0;    ///< energy that the crack takes in all, over that
+  double taken = 0;    ///< energy that it has taken so far, over that
+  double damage = 0;   ///< omega: the cell's springs count 1 - omega; never falls
+  bool shear = false;  ///< it began by the shear limit
 };
 
 /// The law of one material in cells of side d [m].

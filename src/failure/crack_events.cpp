@@ -76,7 +76,7 @@ void CrackEvents::consider_row(std::int64_t j, std::int64_t k) {
     if (!(bound > 0) || !(safe[i] <= least_ * (1 + tie) * bound)) continue;
     const std::int64_t n = first + i;
     const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
-    const Crack crack = cracking_.law(n).ahead(strain, 1);
+    const Crack crack = cracking_.law(n).ahead(strain, model_.strength_of(n));
     if (crack.kappa > 0) consider(n, crack.limit / crack.kappa);
   }
 }
@@ -145,7 +145,7 @@ void CrackEvents::soften(std::int64_t n) {
   if (crack.damage >= 1) return;  // its energy has come to its end
   const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
   const bool fresh = crack.kappa == 0;
-  if (fresh) crack = cracking_.law(n).ahead(strain, 1);
+  if (fresh) crack = cracking_.law(n).ahead(strain, model_.strength_of(n));
   const double equivalent = cracking_.law(n).equivalent(strain);
   crack.kappa = std::max(crack.kappa, equivalent);
 

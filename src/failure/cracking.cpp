@@ -71,6 +71,7 @@ Crack Cracking::load(std::int64_t n) const {
   crack.limit = part(limit);
   crack.ratio = part(ratio);
   crack.taken = part(taken);
+  crack.shear = part(shear) != 0;
   crack.normal = {part(normal), part(normal + 1), part(normal + 2)};
   crack.slip = {part(slip), part(slip + 1), part(slip + 2)};
   return crack;
@@ -83,6 +84,7 @@ void Cracking::store(std::int64_t n, const Crack& crack) {
   state_.crack.component(limit)[n] = crack.limit;
   state_.crack.component(ratio)[n] = crack.ratio;
   state_.crack.component(taken)[n] = crack.taken;
+  state_.crack.component(shear)[n] = crack.shear ? 1 : 0;
   for (int a = 0; a < 3; ++a) {
     state_.crack.component(normal + a)[n] = crack.normal[static_cast<std::size_t>(a)];
     state_.crack.component(slip + a)[n] = crack.slip[static_cast<std::size_t>(a)];
@@ -97,7 +99,7 @@ void Cracking::set_factor(std::int64_t n, const Crack& crack) {
   model_.lattice.factor.component(0)[n] = factor(n, crack.damage);
   const double below = crack.damage >= 1 ? std::numeric_limits<double>::infinity()
                        : crack.kappa > 0 ? margin * crack.kappa
-                                         : margin * law(n).safe(1);
+                                         : margin * law(n).safe(model_.strength_of(n));
   limit_.component(0)[n] = static_cast<float>(below);
 }
 
@@ -150,7 +152,7 @@ void Cracking::crack_further(std::int64_t n, double dt) {
   Crack crack = load(n);
   const bool fresh = crack.kappa == 0;
   if (fresh) {
-    const auto found = law(n).onset(strain, 1);
+    const auto found = law(n).onset(strain, model_.strength_of(n));
     if (!found) return;
     crack = *found;
   }
@@ -160,6 +162,7 @@ void Cracking::crack_further(std::int64_t n, double dt) {
   const double energy = intact_energy(n, dt) - law(n).faces(crack, strain).energy;
   law(n).soften(crack, strain, energy);
   state_.crack.component(dissipated)[n] += (crack.damage - before) * energy * whole_.component(0)[n] * d * d * d;
+  if (before < model::parted && crack.damage >= model::parted) state_.crack.component(moment)[n] = state_.time;
   store(n, crack);
   set_factor(n, crack);
   if (!fresh) return;

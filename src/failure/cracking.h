@@ -58,8 +58,20 @@ class Cracking {
   const CellLaw& law(std::int64_t n) const { return *laws_[model_.lattice.cell.component(0)[n]]; }
 
   /// Components of State::crack.
-  enum Part { damage = 0, kappa, limit, onset, ratio, taken, normal, slip = normal + 3, dissipated = slip + 3 };
-  static_assert(dissipated + 1 == model::crack_components);
+  enum Part {
+    damage = 0,
+    kappa,
+    limit,
+    onset,
+    ratio,
+    taken,
+    normal,
+    slip = normal + 3,
+    dissipated = slip + 3,
+    moment,
+    shear
+  };
+  static_assert(shear + 1 == model::crack_components);
   model::Model& model_;
   model::State& state_;
   std::vector<std::optional<CellLaw>> laws_;  ///< by material index

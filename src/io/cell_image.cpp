@@ -4,12 +4,15 @@
 #include <vtkCellData.h>
 #include <vtkFloatArray.h>
 #include <vtkImageData.h>
+#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkUnsignedShortArray.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <memory>
 
 #include "base/collective.h"
@@ -117,16 +120,45 @@ void set_cells(const CellImage& image, model::Definition& definition) {
   body.density_shares = std::move(scan.density_share);
 }
 
-void set_factors(const CellImage& image, model::Definition& definition) {
+namespace {
+
+// Fills `values`, which `what` names, from an image that must have the body's cells.
+template <class T>
+void set_values(const CellImage& image, const model::Definition& definition, const std::string& key, const char* what,
+                std::vector<T>& values) {
   const Int3 cells = model::make_grid(definition).cells;
   if (image.cells != cells)
     model::Checker(definition)
-        .fail("body.factor", fmt::format("there are factors for {} x {} x {} cells, but the body has {} x {} x {}",
-                                         image.cells[0], image.cells[1], image.cells[2], cells[0], cells[1], cells[2]));
+        .fail(key, fmt::format("there are {} for {} x {} x {} cells, but the body has {} x {} x {}", what,
+                               image.cells[0], image.cells[1], image.cells[2], cells[0], cells[1], cells[2]));
+  values.clear();
+  values.reserve(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]));
+  for_each_value(image, [&](double value) { values.push_back(static_cast<T>(value)); });
+}
+
+}  // namespace
+
+void set_factors(const CellImage& image, model::Definition& definition) {
+  std::vector<float> values;
+  set_values(image, definition, "body.factor", "factors", values);
   std::vector<float>& factors = definition.body.factors;
-  if (factors.empty()) factors.assign(static_cast<std::size_t>(cells[0] * cells[1] * cells[2]), 1);
-  auto factor = factors.begin();
-  for_each_value(image, [&](double value) { *factor++ *= static_cast<float>(value); });
+  if (factors.empty()) factors.assign(values.size(), 1);
+  std::ranges::transform(factors, values, factors.begin(), std::multiplies<float>());
+}
+
+void set_strengths(const CellImage& image, model::Definition& definition) {
+  set_values(image, definition, "body.strength", "strengths", definition.body.strengths);
+}
+
+void set_grain_labels(const CellImage& image, model::Definition& definition) {
+  constexpr double most = std::numeric_limits<std::int32_t>::max();
+  for_each_value(image, [&](double value) {
+    if (std::abs(value) > most)
+      model::Checker(definition)
+          .fail("body.grain_boundary.labels",
+                fmt::format("the label {:.0f} is too large; number the grains from 1", value));
+  });
+  set_values(image, definition, "body.grain_boundary.labels", "labels", definition.body.grain_boundary->label_of_cells);
 }
 
 namespace {
@@ -162,6 +194,12 @@ model::Definition with_cells_in_file(const Communicator& communicator, model::De
   if (!body.factors.empty() && body.factor.empty())
     body.factor =
         write_cell_values<vtkFloatArray>(communicator, definition, directory / "factors.vti", "factor", body.factors);
+  if (!body.strengths.empty() && body.strength.empty())
+    body.strength = write_cell_values<vtkFloatArray>(communicator, definition, directory / "strengths.vti", "factor",
+                                                     body.strengths);
+  if (auto& grains = body.grain_boundary; grains && !grains->label_of_cells.empty() && grains->labels.empty())
+    grains->labels = write_cell_values<vtkIntArray>(communicator, definition, directory / "grains.vti", "material",
+                                                    grains->label_of_cells);
   if (body.cells.empty() || !body.image.empty()) return definition;
   body.image = write_cell_values<vtkUnsignedShortArray>(communicator, definition, directory / "cells.vti", "material",
                                                         body.cells);

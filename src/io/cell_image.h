@@ -35,9 +35,12 @@ void set_cells(const CellImage& image, model::Definition& definition);
 /// Sets body.factors, or multiplies those that the image set; body.size must be known. Errors: InputError at
 /// body.factor.
 void set_factors(const CellImage& image, model::Definition& definition);
+/// Sets body.strengths, and the labels of body.grain_boundary, likewise.
+void set_strengths(const CellImage& image, model::Definition& definition);
+void set_grain_labels(const CellImage& image, model::Definition& definition);
 
-/// The definition with cells and factors that a program gave in `directory`/cells.vti and factors.vti, so that its
-/// resolved input names them (collective). Errors: RunError when the file cannot be written.
+/// The definition with the values of cells that a program gave in files of `directory`, cells.vti and others, so
+/// that its resolved input names them (collective). Errors: RunError when the file cannot be written.
 model::Definition with_cells_in_file(const Communicator& communicator, model::Definition definition,
                                      const std::filesystem::path& directory);
 

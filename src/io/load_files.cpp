@@ -42,6 +42,12 @@ model::Definition load_files(model::Definition definition) {
     definition.body.factors.clear();
   if (const std::string& factor = definition.body.factor; !factor.empty())
     set_factors(load(definition, "body.factor", factor, read_factor_image), definition);
+  if (const std::string& strength = definition.body.strength; !strength.empty())
+    set_strengths(load(definition, "body.strength", strength, read_factor_image), definition);
+  if (const auto& boundary = definition.body.grain_boundary; boundary && !boundary->labels.empty())
+    set_grain_labels(load(definition, "body.grain_boundary.labels", boundary->labels,
+                          [](const auto& path) { return read_cell_image(path); }),
+                     definition);
   for (std::size_t r = 0; r < definition.regions.size(); ++r) {
     model::RegionDefinition& region = definition.regions[r];
     if (region.shape != model::RegionDefinition::Shape::stl) continue;

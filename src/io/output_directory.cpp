@@ -68,7 +68,7 @@ bool holds_results(const fs::path& directory) {
 void check_contents(const fs::path& directory) {
   std::error_code error;
   for (const char* name : {"resolved.toml", "summary.json", "history.csv", "fields.pvd", "checkpoint.h5",
-                           "checkpoint.previous.h5", "report.html"})
+                           "checkpoint.previous.h5", "report.html", "events.csv", "cracks.vtp"})
     if (fs::is_directory(directory / name, error))
       refuse_foreign(directory / name, "is a directory, where a file of results goes");
   const fs::path fields = directory / "fields";

@@ -110,27 +110,6 @@ void check_materials(const Checker& check) {
   }
 }
 
-void check_material_name(const Checker& check, const std::string& path, const std::string& material) {
-  if (material == "void") return;
-  std::vector<std::string> names;
-  for (const MaterialDefinition& known : check.definition.materials) names.push_back(known.name);
-  if (std::find(names.begin(), names.end(), material) != names.end()) return;
-  names.emplace_back("void");
-  check.fail(path, fmt::format("there is no material \"{}\"; {}", material, suggestion(material, names)));
-}
-
-// Formats of files with a value for each cell.
-void check_cell_file(const Checker& check, const std::string& path, const std::string& what, const std::string& file) {
-  const std::vector<std::string> formats{".npy", ".vti",  ".mha", ".mhd",    ".nrrd", ".nhdr",
-                                         ".tif", ".tiff", ".nii", ".nii.gz", ".raw"};
-  if (file.ends_with(".h5") || file.ends_with(".hdf5"))
-    check.fail(path, fmt::format("{} \"{}\" is an HDF5 file, which Koshi does not read; save its data set by itself, "
-                                 "such as with numpy.save(\"scan.npy\", h5py.File(\"{}\")[\"name\"])",
-                                 what, file, file));
-  if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return file.ends_with(suffix); }))
-    check.fail(path, fmt::format("{} \"{}\" is in no known format; known: {}", what, file, quoted_list(formats)));
-}
-
 void check_factor(const Checker& check) {
   const Definition& definition = check.definition;
   if (definition.body.factor.empty() && definition.body.factors.empty()) return;
@@ -194,6 +173,27 @@ void check_region(const Checker& check, const std::string& path, const RegionDef
 
 }  // namespace
 
+void check_material_name(const Checker& check, const std::string& path, const std::string& material) {
+  if (material == "void") return;
+  std::vector<std::string> names;
+  for (const MaterialDefinition& known : check.definition.materials) names.push_back(known.name);
+  if (std::find(names.begin(), names.end(), material) != names.end()) return;
+  names.emplace_back("void");
+  check.fail(path, fmt::format("there is no material \"{}\"; {}", material, suggestion(material, names)));
+}
+
+// Formats of files with a value for each cell.
+void check_cell_file(const Checker& check, const std::string& path, const std::string& what, const std::string& file) {
+  const std::vector<std::string> formats{".npy", ".vti",  ".mha", ".mhd",    ".nrrd", ".nhdr",
+                                         ".tif", ".tiff", ".nii", ".nii.gz", ".raw"};
+  if (file.ends_with(".h5") || file.ends_with(".hdf5"))
+    check.fail(path, fmt::format("{} \"{}\" is an HDF5 file, which Koshi does not read; save its data set by itself, "
+                                 "such as with numpy.save(\"scan.npy\", h5py.File(\"{}\")[\"name\"])",
+                                 what, file, file));
+  if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return file.ends_with(suffix); }))
+    check.fail(path, fmt::format("{} \"{}\" is in no known format; known: {}", what, file, quoted_list(formats)));
+}
+
 void check_body(const Checker& check) {
   check_lattice(check);
   check_materials(check);
@@ -201,6 +201,7 @@ void check_body(const Checker& check) {
   check_box_of_cells(check);
   for (std::size_t i = 0; i < check.definition.regions.size(); ++i)
     check_region(check, fmt::format("region[{}]", i), check.definition.regions[i]);
+  check_scatter(check);
 }
 
 }  // namespace koshi::model

@@ -59,9 +59,11 @@ void check_run(const Checker& check) {
     if (std::find(known.begin(), known.end(), output.fields[i]) == known.end())
       check.fail(fmt::format("output.fields[{}]", i),
                  fmt::format("there is no field \"{}\"; {}", output.fields[i], suggestion(output.fields[i], known)));
-    else if (output.fields[i] == "damage" && !check.definition.cracks())
+    else if ((output.fields[i] == "damage" || output.fields[i] == "crack_opening") && !check.definition.cracks())
       check.fail(fmt::format("output.fields[{}]", i),
-                 "damage belongs to materials that crack, and there is none; give one a fracture, or leave damage out");
+                 fmt::format("{} belongs to materials that crack, and there is none; give one a fracture, or leave {} "
+                             "out",
+                             output.fields[i], output.fields[i]));
   check.within(ranges::time, "output.every", output.every);
   if (output.every_events) check.within(ranges::event_count, "output.every_events", *output.every_events);
   if (output.every_events && !check.definition.cracks_in_equilibrium())
@@ -78,6 +80,7 @@ void check(const Definition& definition) {
   const Checker checker(definition);
   check_body(checker);
   check_conditions(checker);
+  check_cracks(checker);
   check_run(checker);
 }
 

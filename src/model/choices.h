@@ -51,6 +51,10 @@ inline constexpr auto choices<material::Softening> = std::to_array<Choice<materi
     {{"exponential", material::Softening::exponential}, {"linear", material::Softening::linear}});
 
 template <>
+inline constexpr auto choices<material::Distribution> = std::to_array<Choice<material::Distribution>>(
+    {{"weibull", material::Distribution::weibull}, {"normal", material::Distribution::normal}});
+
+template <>
 inline constexpr auto choices<RegionDefinition::Shape> = std::to_array<Choice<RegionDefinition::Shape>>({
     {"box", RegionDefinition::Shape::box},
     {"sphere", RegionDefinition::Shape::sphere},
@@ -74,6 +78,10 @@ inline constexpr auto choices<ScanDefinition::Type> = std::to_array<Choice<ScanD
 template <>
 inline constexpr auto choices<ScanDefinition::ByteOrder> = std::to_array<Choice<ScanDefinition::ByteOrder>>(
     {{"little", ScanDefinition::ByteOrder::little}, {"big", ScanDefinition::ByteOrder::big}});
+
+template <>
+inline constexpr auto choices<CrackDefinition::Shape> = std::to_array<Choice<CrackDefinition::Shape>>(
+    {{"disc", CrackDefinition::Shape::disc}, {"rectangle", CrackDefinition::Shape::rectangle}});
 
 template <>
 inline constexpr auto choices<Face> = std::to_array<Choice<Face>>({
@@ -144,8 +152,8 @@ std::vector<std::string> choice_names() {
 inline constexpr std::array<std::string_view, 6> component_names{"x", "y", "z", "rx", "ry", "rz"};
 
 /// Fields that OutputDefinition::fields may list.
-inline constexpr std::array<std::string_view, 10> field_names{"displacement", "rotation", "orientation", "velocity",
-                                                              "reaction",     "strain",   "stress",      "material",
-                                                              "energy",       "damage"};
+inline constexpr std::array<std::string_view, 11> field_names{"displacement", "rotation", "orientation",  "velocity",
+                                                              "reaction",     "strain",   "stress",       "material",
+                                                              "energy",       "damage",   "crack_opening"};
 
 }  // namespace koshi::model

@@ -27,10 +27,23 @@ bool Definition::cracks() const {
   return std::any_of(materials.begin(), materials.end(), [](const MaterialDefinition& m) { return m.cracks(); });
 }
 
+bool Definition::varies_in_stiffness() const {
+  return std::any_of(materials.begin(), materials.end(),
+                     [](const MaterialDefinition& m) { return m.stiffness_scatter.has_value(); });
+}
+
+bool Definition::varies_in_strength() const {
+  const bool scattered = std::any_of(materials.begin(), materials.end(), [](const MaterialDefinition& m) {
+    return m.cracks() && m.fracture->strength_scatter.has_value();
+  });
+  const bool weak_boundaries = body.grain_boundary && body.grain_boundary->strength;
+  return cracks() && (scattered || weak_boundaries || !body.strengths.empty());
+}
+
 bool Definition::operator==(const Definition& other) const {
   const auto input = [](const Definition& d) {
-    return std::tie(d.title, d.lattice, d.body, d.materials, d.regions, d.boundaries, d.loads, d.analysis, d.probes,
-                    d.output);
+    return std::tie(d.title, d.lattice, d.body, d.materials, d.regions, d.pre_cracks, d.boundaries, d.loads, d.analysis,
+                    d.probes, d.output);
   };
   return input(*this) == input(other);
 }

@@ -44,21 +44,25 @@ double solver_bytes(const lattice::Grid& grid, int components, int ranks) {
 // inverse blocks of each distinct group of 16 nodes that is not uniform (node_blocks.h). How many are distinct is told
 // from a sample of rows.
 double mixed_bytes(const Definition& definition, const lattice::Grid& grid, int components) {
-  if (definition.body.cells.empty() && definition.body.factors.empty() && definition.regions.empty()) return 0;
+  const bool scattered = definition.varies_in_stiffness();
+  if (definition.body.cells.empty() && definition.body.factors.empty() && definition.regions.empty() && !scattered)
+    return 0;
   constexpr int rows_sampled = 400;
   constexpr std::int64_t group_nodes = 16;
   const auto material_of = material_of_cells(definition, grid);
   const auto factor_of = factor_of_cells(definition, grid);
+  std::minstd_rand random;  // the same sample every time
   // A number that tells cells of different material or factor apart.
   const auto kind_of = [&](const Int3& cell) -> char32_t {
     const char32_t material = material_of(cell);
-    if (!factor_of || material == 0) return material;
+    if (material == 0) return material;
+    if (scattered) return static_cast<char32_t>(random());  // no two cells are alike
+    if (!factor_of) return material;
     return material ^ std::bit_cast<std::uint32_t>(factor_of(cell)) * 2654435761u;
   };
   const Int3& n = grid.cells;
   const std::int64_t groups_per_row = (n[0] + group_nodes) / group_nodes;
   std::set<std::u32string> rows, groups;
-  std::minstd_rand random;  // the same sample every time
   for (int sample = 0; sample < rows_sampled; ++sample) {
     const std::int64_t j = static_cast<std::int64_t>(random()) % n[1], k = static_cast<std::int64_t>(random()) % n[2];
     std::array<std::u32string, 4> around;  // the rows of cells around a row of nodes
@@ -112,8 +116,9 @@ double predicted_memory(const Definition& definition, int ranks) {
   // The cell's material and its factor, or with plain springs the bonds; inertia; displacement and velocity. Explicit
   // runs keep the inverse inertia as well.
   const bool plain = definition.lattice.springs == material::Sharing::plain;
-  const bool factors = !definition.body.factors.empty();
-  double bytes = 2 + (factors ? 4 : 0) + (plain ? 17 * lattice::slot_count : 0) + 8 * inertias + 16 * components;
+  const bool factors = !definition.body.factors.empty() || definition.varies_in_stiffness();
+  double bytes = 2 + (factors ? 4 : 0) + (definition.varies_in_strength() ? 4 : 0) +
+                 (plain ? 17 * lattice::slot_count : 0) + 8 * inertias + 16 * components;
   const bool orients = std::count(definition.output.fields.begin(), definition.output.fields.end(), "orientation") != 0;
   const double sample = sample_bytes(definition) * count;
   if (definition.analysis.type == AnalysisDefinition::Type::modes) {
@@ -140,9 +145,10 @@ double predicted_memory(const Definition& definition, int ranks) {
   const lattice::Partition partition = lattice::make_partition(grid, ranks);
   double size = 0;
   for (int rank = 0; rank < ranks; ++rank) size += static_cast<double>(partition.layout(rank).size());
+  const model::BodyDefinition& body = definition.body;
   const double image =
-      2.0 * static_cast<double>(definition.body.cells.size()) +
-      4.0 * static_cast<double>(definition.body.factors.size() + definition.body.density_shares.size());
+      2.0 * static_cast<double>(body.cells.size()) +
+      4.0 * static_cast<double>(body.factors.size() + body.density_shares.size() + body.strengths.size());
   return image * ranks + bytes * size + sample;
 }
 

@@ -10,7 +10,9 @@
 #include "lattice/halo.h"
 #include "model/conditions.h"
 #include "model/memory.h"
+#include "model/pre_cracks.h"
 #include "model/regions.h"
+#include "model/scatter.h"
 
 namespace koshi::model {
 namespace {
@@ -85,8 +87,11 @@ Model make_model(const Definition& definition, const Communicator& communicator)
   const auto halo = std::make_shared<const lattice::Halo>(grid, *partition, communicator);
 
   Model model{definition, communicator, {}, make_cells(grid, partition, halo, material_of_cells(definition, grid)),
-              {},         {},           {}, {}};
+              {},         {},           {}, {},
+              {}};
   if (const auto factor_of = factor_of_cells(definition, grid)) make_factors(model.lattice, factor_of);
+  scatter_stiffness(definition, model.lattice);
+  collectively(communicator, [&] { model.strength = strength_of_cells(definition, model.lattice); });
   model.materials.resize(1);
   for (const MaterialDefinition& m : definition.materials) model.materials.push_back(m.elastic);
   std::array<std::int64_t, 2> counts{};
@@ -120,6 +125,7 @@ State::State(const Model& model)
   crack = lattice::Field<double>(model.layout(), crack_components);
   face_force = lattice::Field<double>(model.layout(), 3);
   work = lattice::Field<double>(model.layout(), 2);
+  add_cracks(model, crack);
 }
 
 }  // namespace koshi::model

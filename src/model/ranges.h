@@ -74,6 +74,19 @@ inline constexpr Range friction_angle{.unit = "rad",
                                       .open_above = true,
                                       .reason = "an angle below 90 degrees such as \"40 deg\""};
 
+inline constexpr Range weibull_modulus{.least = 1, .most = 1e6};
+inline constexpr Range variation{.least = 0,
+                                 .most = 0.3,
+                                 .open_below = true,
+                                 .reason = "so that three standard deviations leave all factors positive"};
+inline constexpr Range correlation_length{.unit = "m", .least = 0, .most = 1e12};
+inline constexpr Range seed{.least = 0, .most = 2147483647};
+inline constexpr Range strength_share{.least = 1e-6, .most = 1e6};
+
+// The run's end.
+inline constexpr Range part_of_peak{.least = 0, .most = 1, .open_below = true, .open_above = true};
+inline constexpr Range moment{.unit = "s", .least = 0, .most = 1e15};
+
 // Loads and motions.
 inline constexpr Range force = symmetric("N", 1e30, 1e-30);
 inline constexpr Range pressure = symmetric("Pa", 1e30, 1e-30);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "model/check.h"
+#include "model/grains.h"
 
 namespace koshi::model {
 namespace {
@@ -89,7 +90,7 @@ lattice::Grid make_grid(const Definition& definition) {
   return grid;
 }
 
-std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid) {
+std::function<std::uint16_t(const Int3&)> material_of_grains(const Definition& definition, const lattice::Grid& grid) {
   const std::vector<std::uint16_t>& image = definition.body.cells;
   const Int3 n = grid.cells;
   if (!image.empty() && static_cast<std::int64_t>(image.size()) != n[0] * n[1] * n[2])
@@ -115,6 +116,16 @@ std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& de
       if (in) return region_material[r];
     }
     return image.empty() ? background : image[at];
+  };
+}
+
+std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid) {
+  const auto material_of = material_of_grains(definition, grid);
+  const auto& boundary = definition.body.grain_boundary;
+  if (!boundary || boundary->material.empty()) return material_of;
+  return [material_of, on_boundary = grain_boundaries(definition, grid),
+          between = index_of(definition, boundary->material)](const Int3& cell) {
+    return on_boundary(cell) ? between : material_of(cell);
   };
 }
 

@@ -17,6 +17,9 @@ lattice::Grid make_grid(const Definition& definition);
 /// Material index (0 = empty) of a global cell: the body's material or image, then the regions, later ones winning. A
 /// cell belongs to a region when its centre lies inside or on the border. The definition must have passed check() and
 /// outlive the function.
+std::function<std::uint16_t(const Int3&)> material_of_grains(const Definition& definition, const lattice::Grid& grid);
+
+/// The same, and then cells along grain boundaries become what they are to be.
 std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid);
 
 /// Factor of each cell by its global indices; null where the definition gives none. Errors: InputError when there is

@@ -50,13 +50,17 @@ std::optional<Int3> global_cell(const SpringLattice& body, const Int3& node) {
 template <class T>
 lattice::Field<T> make_cell_field(const SpringLattice& body, const std::function<T(const Int3&)>& value_of) {
   lattice::Field<T> field(body.layout, 1);
-  lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
-    if (const auto cell = global_cell(body, {i, j, k})) field.component(0)[n] = value_of(*cell);
-  });
+  for_each_cell(body, [&](const Int3& cell, std::int64_t n) { field.component(0)[n] = value_of(cell); });
   return field;
 }
 
 }  // namespace
+
+void for_each_cell(const SpringLattice& body, const std::function<void(const Int3&, std::int64_t)>& f) {
+  lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
+    if (const auto cell = global_cell(body, {i, j, k})) f(*cell, n);
+  });
+}
 
 SpringLattice make_cells(const lattice::Grid& grid, std::shared_ptr<const lattice::Partition> partition,
                          std::shared_ptr<const lattice::Halo> halo,

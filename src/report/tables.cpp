@@ -132,7 +132,7 @@ std::string report_subtitle(const model::Definition& definition) {
 
 nlohmann::ordered_json materials_table(const model::Definition& definition) {
   json block = table({column("material"), column("E", "Pa"), column("ν"), column("density", "kg/m^3")});
-  for (const auto& [name, elastic, fracture] : definition.materials)
+  for (const auto& [name, elastic, fracture, scatter] : definition.materials)
     block["rows"].push_back({name, elastic.youngs_modulus, elastic.poissons_ratio, elastic.density});
   return block;
 }
@@ -143,7 +143,7 @@ SpringTables spring_tables(const model::Definition& definition, const nlohmann::
       table({column("material"), column("E asked", "Pa"), column("E_x", "Pa"), column("E_y", "Pa"), column("E_z", "Pa"),
              column("deviation"), column("ν asked"), column("ν_xy"), column("ν_yz"), column("ν_zx"),
              column("deviation"), column("Zener ratio")})};
-  for (const auto& [name, elastic, fracture] : definition.materials) {
+  for (const auto& [name, elastic, fracture, scatter] : definition.materials) {
     const calibration::Calibrated found = calibrated(definition, elastic);
     append_springs(tables.springs["rows"], name, definition.lattice.cell, springs_of(summary, name, found.springs));
     append_achieved(tables.achieved["rows"], name, found);

@@ -1,8 +1,10 @@
 // The program on bodies that crack: the same bits on any ranks and over a restart, and what is refused or warned of.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "io/field_reader.h"
 #include "io/history_reader.h"
@@ -124,6 +126,34 @@ TEST_F(CrackingRuns, EventsAreTheSameOnTwoRanks) {
   EXPECT_GT(analysis.at("peak").at("event"), 0);
 }
 
+// Random strengths and stiffnesses, with a correlation length or without, belong to cells and not to ranks; what came
+// out is told by check, the log and the summary.
+TEST_F(CrackingRuns, ScatterIsTheSameOnAnyRanks) {
+  const std::string scatter =
+      " --set 'material.concrete.fracture.strength_scatter={modulus=8, correlation_length=\"12 mm\", seed=7}'"
+      " --set 'material.concrete.stiffness_scatter={distribution=\"normal\", variation=0.1, seed=8}'";
+  for (const std::string ranks : {"1", "2", "4"}) {
+    const Ended ended = koshi("run plate.toml --out s" + ranks + " --ranks " + ranks + scatter);
+    ASSERT_EQ(ended.code, 0) << ended.error;
+    EXPECT_THAT(ended.output + ended.error, HasSubstr("scatter: strength of \"concrete\": "));
+    EXPECT_TRUE(file("s" + ranks + "/checkpoint.h5") == file("s1/checkpoint.h5")) << ranks;
+  }
+  ASSERT_EQ(koshi("run plate.toml --quiet --out plain").code, 0);
+  EXPECT_NE(last_row("plain"), last_row("s1"));
+  const Ended check = koshi("check plate.toml" + scatter);
+  const nlohmann::json report = nlohmann::json::parse(file("s4/summary.json")).at("scatter").at("concrete");
+  const auto line = [&](const std::string& property) {
+    const nlohmann::json& r = report.at(property);
+    return fmt::format("scatter       {} of \"concrete\": {} cells, mean {:.4g}, variation {:.4g}, correlation of ",
+                       property, r.at("cells").get<int>(), r.at("mean").get<double>(), r.at("variation").get<double>());
+  };
+  for (const char* property : {"strength", "stiffness"}) EXPECT_THAT(check.output, HasSubstr(line(property)));
+  // Neighbours of 5 mm are correlated by exp(-(5/12)^2) = 0.84 in strength, and not in stiffness, but for chance.
+  EXPECT_NEAR(report.at("strength").at("correlation").get<double>(), 0.84, 0.1);
+  EXPECT_NEAR(report.at("stiffness").at("correlation").get<double>(), 0, 0.15);
+  EXPECT_NEAR(report.at("stiffness").at("variation").get<double>(), 0.1, 0.02);
+}
+
 // The checkpoint of a shorter run has cracks that are open and goes on as if nothing had happened, on other ranks too.
 TEST_F(CrackingRuns, RestartsGoOnWithTheSameBits) {
   ASSERT_EQ(koshi("run plate.toml --quiet --out whole").code, 0);
@@ -138,6 +168,110 @@ TEST_F(CrackingRuns, RestartsGoOnWithTheSameBits) {
     EXPECT_TRUE(file(std::string("on") + ranks + "/checkpoint.h5") == file("whole/checkpoint.h5")) << ranks;
     EXPECT_EQ(last_row(std::string("on") + ranks), last_row("whole"));
   }
+}
+
+// What a run tells of its cracks: a catalogue, a surface, their opening; the same on any ranks and over a restart.
+TEST_F(CrackingRuns, CatalogueAndSurface) {
+  const std::string options =
+      " --quiet --set output.crack_surface=true --set 'output.fields=[\"damage\", \"crack_opening\"]'";
+  ASSERT_EQ(koshi("run plate.toml --out one" + options).code, 0);
+  ASSERT_EQ(koshi("run plate.toml --out three --ranks 3" + options).code, 0);
+  ASSERT_EQ(koshi("run plate.toml --out half --set 'analysis.duration=\"80 us\"'" + options).code, 0);
+  ASSERT_EQ(koshi("run plate.toml --out half --restart half/checkpoint.h5" + options).code, 0);
+  for (const fs::path name : {"events.csv", "cracks.vtp"})
+    for (const fs::path other : {"three", "half"})
+      EXPECT_TRUE(file(other / name) == file(fs::path("one") / name)) << other << name;
+  const nlohmann::json cracks = nlohmann::json::parse(file("one/summary.json")).at("cracks");
+  EXPECT_GT(cracks.at("cells").get<int>(), 5);
+
+  // Every cell that cracked through is a polygon, and one of an event.
+  const std::vector<io::HistoryColumn> events = io::read_history(directory_ / "one/events.csv");
+  ASSERT_EQ(events.size(), 9u);
+  EXPECT_EQ(events[0].name, "time");
+  EXPECT_EQ(events[6].name, "cells");
+  double cells = 0, energy = 0;
+  for (std::size_t e = 0; e < events[6].values.size(); ++e) {
+    cells += events[6].values[e];
+    energy += events[5].values[e];
+    EXPECT_GT(events[0].values[e], 0);
+    EXPECT_LE(events[0].values[e] + events[1].values[e], 160e-6);
+  }
+  EXPECT_EQ(cells, cracks.at("cells").get<double>());
+  EXPECT_EQ(events[6].values.size(), cracks.at("events").at("count").get<std::size_t>());
+  EXPECT_THAT(file("one/cracks.vtp"),
+              HasSubstr("NumberOfPolys=\"" + std::to_string(cracks.at("cells").get<int>()) + "\""));
+  // The others have taken something too: the rest of cracks [J].
+  EXPECT_GT(energy, 0.5 * last_row("one").back());
+  EXPECT_LT(energy, last_row("one").back());
+
+  const io::FieldReader reader(io::list_samples(directory_ / "one").back().path);
+  ASSERT_EQ(reader.fields().size(), 2u);
+  std::vector<std::int64_t> all(12 * 9 * 2);
+  for (std::size_t n = 0; n < all.size(); ++n) all[n] = static_cast<std::int64_t>(n);
+  const std::vector<float> opening = reader.gather(reader.fields()[1], all);
+  const auto [least, greatest] = std::ranges::minmax(opening);
+  EXPECT_EQ(least, 0);
+  EXPECT_LT(greatest, 3e-5) << "m, about what the end was moved";
+}
+
+// A run ends at the first row at which its reaction has fallen, or a crack has come to a face; a restart with the same
+// condition ends at the same row, for it knows the largest reaction.
+TEST_F(CrackingRuns, EndsWhenToldTo) {
+  const std::string pull =
+      " --set 'probe=[{name=\"pull\", face=\"x-max\", quantity=\"reaction\"}]'"
+      " --set 'analysis.stop_when={probe=\"pull\", below=0.5, after=\"20 us\"}'";
+  const Ended whole = koshi("run plate.toml --out whole" + pull);
+  ASSERT_EQ(whole.code, 0) << whole.error;
+  EXPECT_THAT(whole.output, HasSubstr("of its largest, "));
+  const std::vector<io::HistoryColumn> history = io::read_history(directory_ / "whole/history.csv");
+  std::vector<double> force;
+  for (std::size_t row = 0; row < history[0].values.size(); ++row)
+    force.push_back(std::hypot(history[1].values[row], history[2].values[row], history[3].values[row]));
+  const double peak = *std::ranges::max_element(force);
+  EXPECT_LT(force.back(), 0.5 * peak);
+  EXPECT_LT(history[0].values.back(), 150e-6);
+  for (std::size_t row = 0; row + 1 < force.size(); ++row)
+    EXPECT_TRUE(force[row] >=
+                    0.5 * *std::max_element(force.begin(), force.begin() + static_cast<std::ptrdiff_t>(row) + 1) ||
+                history[0].values[row] < 20e-6)
+        << row;
+  EXPECT_THAT(file("whole/summary.json"), HasSubstr("\"stop_reason\""));
+
+  ASSERT_EQ(koshi("run plate.toml --quiet --out half --set 'analysis.duration=\"40 us\"'" + pull).code, 0);
+  for (const char* ranks : {"1", "2"}) {
+    ASSERT_EQ(koshi(std::string("run plate.toml --quiet --restart half/checkpoint.h5 --out on") + ranks + " --ranks " +
+                    ranks + pull)
+                  .code,
+              0);
+    EXPECT_EQ(last_row(std::string("on") + ranks), last_row("whole")) << ranks;
+  }
+  const Ended face = koshi("run plate.toml --out face --ranks 2 --set 'analysis.stop_when={face=\"y-max\"}'");
+  ASSERT_EQ(face.code, 0) << face.error;
+  EXPECT_THAT(face.output, HasSubstr("a crack has reached the face y-max"));
+}
+
+// A crack from the start is there on any ranks, in a checkpoint, and in a case that starts from another.
+TEST_F(CrackingRuns, BeginsWithCracks) {
+  const std::string flaw =
+      " --set 'crack=[{center=[\"15 mm\", \"45 mm\", \"5 mm\"], normal=[1, 0.3, 0], radius=\"16 mm\"}]'";
+  for (const std::string ranks : {"1", "2", "4"}) {
+    ASSERT_EQ(koshi("run plate.toml --quiet --out c" + ranks + " --ranks " + ranks + flaw).code, 0);
+    EXPECT_TRUE(file("c" + ranks + "/checkpoint.h5") == file("c1/checkpoint.h5")) << ranks;
+  }
+  const auto cracked = [&](const fs::path& output) {
+    return nlohmann::json::parse(file(output / "summary.json")).at("cracks").at("cells").get<int>();
+  };
+  const std::string still = " --set 'analysis.duration=\"1 us\"'";
+  ASSERT_EQ(koshi("run plate.toml --quiet --out start" + flaw + still).code, 0);
+  EXPECT_EQ(cracked("start"), 6) << "three rows that are two cells deep";
+  const std::string events = file("start/events.csv");
+  EXPECT_EQ(std::ranges::count(events, '\n'), 1) << "none of them an event of the run";
+  ASSERT_EQ(koshi("run plate.toml --quiet --out plain").code, 0);
+  ASSERT_EQ(koshi("run plate.toml --quiet --out next --set analysis.start_from=plain" + flaw + still).code, 0);
+  EXPECT_GT(cracked("next"), cracked("plain"));
+  double fresh = 0;
+  for (const double cells : io::read_history(directory_ / "next/events.csv")[6].values) fresh += cells;
+  EXPECT_LT(fresh, cracked("next") - cracked("plain")) << "what had cracked is none either";
 }
 
 // Cracks go over into another case that starts from their checkpoint, but into none that cannot have them.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -102,6 +103,76 @@ TEST(CalibrateCommand, RefusesUnstableSprings) {
       {"--youngs-modulus", "1 GPa", "--poissons-ratio", "-0.3", "--spacing", "1 mm", "--kinematics", "least-squares"});
   EXPECT_THAT(outcome.output, HasSubstr("verdict                        refused\n    unstable"));
   EXPECT_THAT(outcome.error, HasSubstr("unstable: a single cell has a negative eigenvalue"));
+}
+
+const std::vector<std::string> concrete{"--youngs-modulus",
+                                        "30 GPa",
+                                        "--poissons-ratio",
+                                        "0.2",
+                                        "--strength",
+                                        "--fracture-energy",
+                                        "100 J/m^2",
+                                        "--tensile-strength",
+                                        "3 MPa",
+                                        "--cohesion",
+                                        "8 MPa",
+                                        "--friction-angle",
+                                        "40 deg"};
+
+std::vector<std::string> concrete_and(const std::vector<std::string>& more) {
+  std::vector<std::string> all = concrete;
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+// What is asked for comes out along every direction, for both kinematics and ways of softening: f_t, G_f, and f_c = 2 c
+// cos phi/(1 - sin phi) = 34.3121 MPa. E G_f/f_t^2 = 1/3 m; spacings below 2/sqrt 3 times that have all of it.
+TEST(CalibrateCommand, StrengthAlongThreeDirections) {
+  for (const char* kinematics : {"rotational", "least-squares"})
+    for (const char* softening : {"linear", "exponential"}) {
+      const Outcome outcome = calibrate(
+          concrete_and({"--spacing", "5 mm", "--json", "--kinematics", kinematics, "--softening", softening}));
+      ASSERT_EQ(outcome.error, "");
+      const auto strength = nlohmann::json::parse(outcome.output).at("strength");
+      ASSERT_EQ(strength.at("tests").size(), 3u);
+      for (const auto& test : strength.at("tests")) {
+        EXPECT_NEAR(test.at("tensile_strength").get<double>() / 3e6, 1, 1e-9) << test;
+        EXPECT_NEAR(test.at("fracture_energy").get<double>() / 100, 1, 1e-6) << test;
+        EXPECT_NEAR(test.at("compressive_strength").get<double>() / 34.3121e6, 1, 1e-5) << test;
+      }
+      EXPECT_NEAR(strength.at("characteristic_length").get<double>(), 1 / 3.0, 1e-12);
+      EXPECT_NEAR(strength.at("spacing_limit").get<double>(), 2 / (3 * std::sqrt(3.0)), 1e-12);
+    }
+}
+
+// In cells of 1 m cracks open at sqrt(2 E G_f/h): 2.449 MPa along an axis, over 3^(1/4) across a body diagonal; they
+// keep the energy, to the size of the steps by which the block is pulled.
+TEST(CalibrateCommand, StrengthOfCoarseCells) {
+  const Outcome outcome = calibrate(concrete_and({"--spacing", "1 m", "--json"}));
+  ASSERT_EQ(outcome.error, "");
+  const auto tests = nlohmann::json::parse(outcome.output).at("strength").at("tests");
+  EXPECT_NEAR(tests[0].at("tensile_strength").get<double>(), 2.44949e6, 1e1);
+  EXPECT_NEAR(tests[2].at("tensile_strength").get<double>(), 2.44949e6 / std::pow(3, 0.25), 1e1);
+  for (const auto& test : tests) EXPECT_NEAR(test.at("fracture_energy").get<double>(), 100, 1) << test;
+  const Outcome text = calibrate(concrete_and({"--spacing", "1 m"}));
+  EXPECT_THAT(text.output, HasSubstr("the spacing of 1 m is too coarse: cracks keep their energy and open early; below "
+                                     "0.3849 m every direction has both"));
+  EXPECT_THAT(calibrate(concrete_and({"--spacing", "5 mm"})).output,
+              HasSubstr("the spacing of 0.005 m is fine enough"));
+}
+
+TEST(CalibrateCommand, StrengthsThatAreWrong) {
+  EXPECT_THAT(calibrate(rock_and({"--strength"})).error, HasSubstr("--strength: error: needs --tensile-strength"));
+  EXPECT_THAT(calibrate(rock_and({"--cohesion", "1 MPa"})).error, HasSubstr("--cohesion: error: belongs to the tests"));
+  EXPECT_THAT(calibrate(concrete_and({"--spacing", "5 mm", "--springs", "plain"})).error,
+              HasSubstr("fracture takes springs from cells, but plain springs belong to none"));
+  const auto wrong = [&](const std::string& option, const std::string& value) {
+    return calibrate(rock_and({"--strength", "--tensile-strength", "1 MPa", "--fracture-energy", "1 J/m^2",
+                               "--cohesion", "9 MPa", option, value}))
+        .error;
+  };
+  EXPECT_THAT(wrong("--friction-angle", "90 deg"), HasSubstr("an angle below 90 degrees such as"));
+  EXPECT_THAT(wrong("--softening", "slow"), HasSubstr("\"slow\" is not known"));
 }
 
 }  // namespace

@@ -66,6 +66,20 @@ const std::map<std::string, std::string>& places() {
       {"material.fracture.cohesion", "material.soft.fracture.cohesion"},
       {"material.fracture.friction_angle", "material.soft.fracture.friction_angle"},
       {"material.fracture.residual_friction_angle", "material.soft.fracture.residual_friction_angle"},
+      {"material.fracture.strength_scatter.modulus", "material.soft.fracture.strength_scatter.modulus"},
+      {"material.fracture.strength_scatter.variation", "material.soft.fracture.strength_scatter.variation"},
+      {"material.fracture.strength_scatter.correlation_length",
+       "material.soft.fracture.strength_scatter.correlation_length"},
+      {"material.stiffness_scatter.modulus", "material.soft.stiffness_scatter.modulus"},
+      {"material.stiffness_scatter.variation", "material.soft.stiffness_scatter.variation"},
+      {"material.stiffness_scatter.correlation_length", "material.soft.stiffness_scatter.correlation_length"},
+      {"body.grain_boundary.strength", "body.grain_boundary.strength"},
+      {"crack.center", "crack.0.center.1"},
+      {"crack.normal", "crack.0.normal.1"},
+      {"crack.radius", "crack.0.radius"},
+      {"crack.along", "crack.1.along.2"},
+      {"crack.length", "crack.1.length"},
+      {"crack.width", "crack.1.width"},
       {"region.min", "region.0.min.0"},
       {"region.max", "region.0.max.2"},
       {"region.center", "region.1.center.1"},
@@ -110,6 +124,8 @@ const std::map<std::string, std::string>& places() {
       {"analysis.duration", "analysis.duration"},
       {"analysis.time_step", "analysis.time_step"},
       {"analysis.safety", "analysis.safety"},
+      {"analysis.stop_when.below", "analysis.stop_when.below"},
+      {"analysis.stop_when.after", "analysis.stop_when.after"},
       {"analysis.near", "analysis.near"},
       {"analysis.damping.factor", "analysis.damping.factor"},
       {"analysis.damping.rate", "analysis.damping.rate"},
@@ -142,6 +158,13 @@ std::string message_of(const std::string& name, const std::string& number) {
   if (name == "analysis.damping.rate") overrides.emplace_back("analysis.damping.kind=viscous");
   if (name.starts_with("material.fracture."))
     overrides.emplace_back("material.soft.fracture={tensile_strength=1, fracture_energy=1, cohesion=10}");
+  if (name.ends_with("scatter.variation"))
+    overrides.push_back(path.substr(0, path.rfind('.')) + ".distribution=normal");
+  if (name.starts_with("crack."))
+    overrides.emplace_back(
+        "crack=[{center=[0, 0, 0], normal=[1, 0, 0], radius=1}, {center=[0, 0, 0], normal=[1, 0, 0], "
+        "shape='rectangle', along=[0, 1, 0], length=1, width=1}]");
+  if (name == "analysis.stop_when.below") overrides.emplace_back("analysis.stop_when.probe=tip");
   if (name == "analysis.near") overrides.emplace_back("analysis={type='modes'}");
   if (name == "probe.center") overrides.emplace_back("probe.a point.quantity=moment");
   overrides.push_back(path + "=" + value);
@@ -196,8 +219,8 @@ TEST(Ranges, EveryNumberIsKeptToThem) {
     EXPECT_THAT(message_of(name, "\"1e400\""), HasSubstr("is out of the range of numbers")) << name;
     ++count;
   }
-  EXPECT_EQ(count, 74);
-  EXPECT_EQ(places().size(), 74u);
+  EXPECT_EQ(count, 89);
+  EXPECT_EQ(places().size(), 89u);
 }
 
 // The unit of a range is the one in which the reader gives its values.
@@ -221,8 +244,9 @@ TEST(Ranges, HaveTheUnitOfTheirKey) {
                 check_units<MaterialDefinition>() + check_units<RegionDefinition>() +
                 check_units<BoundaryDefinition>() + check_units<LoadDefinition>() + check_units<AnalysisDefinition>() +
                 check_units<DampingDefinition>() + check_units<ProbeDefinition>() + check_units<OutputDefinition>() +
-                check_units<material::Fracture>(),
-            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 2 + 4 + 4);
+                check_units<material::Fracture>() + check_units<material::Scatter>() +
+                check_units<GrainBoundaryDefinition>() + check_units<CrackDefinition>() + check_units<StopDefinition>(),
+            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 2 + 4 + 4 + 4 + 1 + 6 + 2);
 }
 
 // A fracture with nothing wrong but what it is given.
@@ -232,6 +256,11 @@ material::Fracture& fracture_of(model::Definition& definition) {
   fracture.tensile_strength = fracture.fracture_energy = 1;
   fracture.cohesion = 10;
   return fracture;
+}
+
+material::Scatter& scatter_of(model::Definition& definition) {
+  return definition.materials[0].stiffness_scatter.emplace(
+      material::Scatter{.distribution = material::Distribution::normal, .variation = 0.1});
 }
 
 // A program that fills the structs itself meets the same ranges.
@@ -249,6 +278,10 @@ TEST(Ranges, HoldForDefinitionsOfAProgram) {
       [](D& d) -> double& { return fracture_of(d).cohesion.emplace(); },
       [](D& d) -> double& { return fracture_of(d).friction_angle; },
       [](D& d) -> double& { return fracture_of(d).residual_friction_angle; },
+      [](D& d) -> double& { return fracture_of(d).strength_scatter.emplace().modulus; },
+      [](D& d) -> double& { return scatter_of(d).variation; },
+      [](D& d) -> double& { return scatter_of(d).correlation_length; },
+      [](D& d) -> double& { return d.body.grain_boundary.emplace().strength.emplace(); },
       [](D& d) -> double& { return d.regions[0].min[0]; },
       [](D& d) -> double& { return d.regions[0].max[1]; },
       [](D& d) -> double& { return d.regions[1].center[2]; },
@@ -296,7 +329,7 @@ TEST(Ranges, HoldForDefinitionsOfAProgram) {
       EXPECT_THROW(model::check(wrong), InputError) << "member " << m << " = " << value;
       ++count;
     }
-  EXPECT_EQ(count, 47 * 5);
+  EXPECT_EQ(count, 51 * 5);
 }
 
 }  // namespace

@@ -17,12 +17,13 @@ std::string contents(const std::filesystem::path& path) {
   return text.str();
 }
 
-// The examples, and two cases that hold every key between them.
+// The examples, and three cases that hold every key between them.
 std::vector<std::filesystem::path> right_cases() {
   const std::filesystem::path source(KOSHI_SOURCE_DIR);
   return {source / "examples/01_uniaxial_paper/case.toml",   source / "examples/02_cantilever_paper/case.toml",
           source / "examples/03_cantilever_exact/case.toml", source / "examples/04_two_phase_block/case.toml",
-          source / "tests/fuzz/corpus/input/stepped.toml",   source / "tests/fuzz/corpus/input/image.toml"};
+          source / "tests/fuzz/corpus/input/stepped.toml",   source / "tests/fuzz/corpus/input/image.toml",
+          source / "tests/fuzz/corpus/input/cracked.toml"};
 }
 
 TEST(ResolvedInput, ReadsBackEqual) {
@@ -116,6 +117,37 @@ TEST(ResolvedInput, EveryKeySurvives) {
                              "body.scan.coarsen=3", "body.scan.thresholds=[1, 2.5]"})
     expect_survival(right_cases()[5], change);
   expect_survival(right_cases()[5], "analysis.damping.rate=3");
+  const std::string fracture = "material.rock.fracture.", scatter = fracture + "strength_scatter.";
+  for (const std::string& change : {fracture + "tensile_strength=1",
+                                    fracture + "fracture_energy=1",
+                                    fracture + "softening=exponential",
+                                    fracture + "cohesion=1e9",
+                                    fracture + "friction_angle=0",
+                                    fracture + "residual_friction_angle=0",
+                                    scatter + "modulus=3",
+                                    scatter + "correlation_length=0",
+                                    scatter + "seed=9",
+                                    fracture + "strength_scatter={distribution='normal', variation=0.2}",
+                                    std::string("material.rock.stiffness_scatter.variation=0.2"),
+                                    std::string("body.factor=/a.npy"),
+                                    std::string("body.strength=/a.npy"),
+                                    std::string("body.grain_boundary.labels=/a.npy"),
+                                    std::string("body.grain_boundary.strength=2"),
+                                    std::string("body.grain_boundary={material='rock'}"),
+                                    std::string("crack.flaw.name=x"),
+                                    std::string("crack.0.center=[0, 0, 0]"),
+                                    std::string("crack.0.normal=[1, 0, 0]"),
+                                    std::string("crack.0.radius=1"),
+                                    std::string("crack.1.along=[0, 0, 1]"),
+                                    std::string("crack.1.length=1"),
+                                    std::string("crack.1.width=1"),
+                                    std::string("analysis.stop_when.below=0.5"),
+                                    std::string("analysis.stop_when.face=y-max"),
+                                    std::string("analysis.stop_when.after=0"),
+                                    std::string("analysis.stop_when={face='x-max'}"),
+                                    std::string("output.crack_surface=false"),
+                                    std::string("output.fields=['damage']")})
+    expect_survival(right_cases()[6], change);
 }
 
 TEST(ResolvedInput, WritesDefaultsInSI) {

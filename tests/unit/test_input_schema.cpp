@@ -31,16 +31,25 @@ std::map<std::string, std::set<std::string>> schema_keys() {
     if (table.contains("properties")) result[name] = keys(table);
     if (name == "material") result[name] = keys(table.at("additionalProperties"));
   }
-  result["fracture"] =
-      keys(schema.at("properties").at("material").at("additionalProperties").at("properties").at("fracture"));
-  result["scan"] = keys(schema.at("properties").at("body").at("properties").at("scan"));
+  const Json& body = schema.at("properties").at("body").at("properties");
+  const Json& material = schema.at("properties").at("material").at("additionalProperties").at("properties");
+  result["fracture"] = keys(material.at("fracture"));
+  result["grain_boundary"] = keys(body.at("grain_boundary"));
+  result["stiffness_scatter"] = keys(material.at("stiffness_scatter"));
+  result["strength_scatter"] = keys(material.at("fracture").at("properties").at("strength_scatter"));
+  result["scan"] = keys(body.at("scan"));
+  result["stop_when"] = keys(schema.at("properties").at("analysis").at("properties").at("stop_when"));
   result["damping"] = keys(schema.at("properties").at("analysis").at("properties").at("damping"));
   return result;
 }
 
 // The reader names the keys it knows when it meets one that resembles none.
 std::set<std::string> known_keys(const std::string& override_path) {
-  const std::vector<std::string> overrides{override_path + "qqqqqqqqqq=1"};
+  std::vector<std::string> overrides;
+  if (override_path.starts_with("crack")) overrides.emplace_back("crack=[{center=[0, 0, 0], normal=[1, 0, 0]}]");
+  if (override_path.find("fracture.") != std::string::npos)
+    overrides.emplace_back("material.rock.fracture={tensile_strength=1, fracture_energy=1}");
+  overrides.push_back(override_path + "qqqqqqqqqq=1");
   const std::string message = tests::message_of(tests::right_case, overrides);
   std::set<std::string> names;
   std::size_t at = message.find("known: ");
@@ -62,11 +71,16 @@ TEST(Schema, ListsTheKeysOfTheReader) {
       {"scan", "body.scan."},
       {"material", "material.rock."},
       {"fracture", "material.rock.fracture."},
+      {"strength_scatter", "material.rock.fracture.strength_scatter."},
+      {"stiffness_scatter", "material.rock.stiffness_scatter."},
+      {"grain_boundary", "body.grain_boundary."},
       {"region", "region.0."},
       {"boundary", "boundary.top."},
       {"load", "load.push."},
       {"analysis", "analysis."},
       {"damping", "analysis.damping."},
+      {"stop_when", "analysis.stop_when."},
+      {"crack", "crack.0."},
       {"probe", "probe.tip."},
       {"output", "output."},
   };
@@ -76,7 +90,7 @@ TEST(Schema, ListsTheKeysOfTheReader) {
     EXPECT_EQ(schema.at(table), known_keys(path)) << table;
     count += schema.at(table).size();
   }
-  EXPECT_EQ(count, 10u + 7 + 8 + 12 + 4 + 7 + 12 + 11 + 10 + 12 + 3 + 7 + 7);
+  EXPECT_EQ(count, 11u + 7 + 10 + 12 + 5 + 8 + 5 + 5 + 3 + 12 + 11 + 10 + 13 + 4 + 8 + 3 + 7 + 8);
 }
 
 TEST(Schema, TellsTypeDefaultAndMeaning) {
@@ -120,7 +134,7 @@ TEST(Schema, TellsTypeDefaultAndMeaning) {
       ++described;
     }
   }
-  EXPECT_EQ(described, 7 + 8 + 12 + 11 + 10 + 12 + 7 + 7);
+  EXPECT_EQ(described, 7 + 10 + 12 + 8 + 11 + 10 + 13 + 7 + 8);
 }
 
 // The example of each key is what its reader takes, and sets something.
@@ -140,13 +154,14 @@ int read_examples() {
 
 TEST(Schema, ExamplesAreRight) {
   using namespace model;
-  const int count = read_examples<Definition>() + read_examples<LatticeDefinition>() + read_examples<BodyDefinition>() +
-                    read_examples<ScanDefinition>() + read_examples<MaterialDefinition>() +
-                    read_examples<RegionDefinition>() + read_examples<BoundaryDefinition>() +
-                    read_examples<LoadDefinition>() + read_examples<AnalysisDefinition>() +
-                    read_examples<DampingDefinition>() + read_examples<ProbeDefinition>() +
-                    read_examples<OutputDefinition>() + read_examples<material::Fracture>();
-  EXPECT_EQ(count, 1 + 3 + 8 + 10 + 4 + 5 + 11 + 10 + 9 + 7 + 1 + 5 + 5);
+  const int count =
+      read_examples<Definition>() + read_examples<LatticeDefinition>() + read_examples<BodyDefinition>() +
+      read_examples<ScanDefinition>() + read_examples<MaterialDefinition>() + read_examples<RegionDefinition>() +
+      read_examples<BoundaryDefinition>() + read_examples<LoadDefinition>() + read_examples<AnalysisDefinition>() +
+      read_examples<DampingDefinition>() + read_examples<ProbeDefinition>() + read_examples<OutputDefinition>() +
+      read_examples<material::Fracture>() + read_examples<material::Scatter>() +
+      read_examples<GrainBoundaryDefinition>() + read_examples<CrackDefinition>() + read_examples<StopDefinition>();
+  EXPECT_EQ(count, 1 + 3 + 10 + 10 + 5 + 6 + 11 + 10 + 8 + 9 + 1 + 5 + 5 + 4 + 3 + 7 + 3);
 }
 
 // A key without a list of words, a switch or a nested table shows an example.
@@ -163,7 +178,7 @@ TEST(Schema, EveryValueHasAnExample) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 3 + 8 + 4 + 11 + 10 + 9 + 9 + 3 + 6);
+  EXPECT_EQ(count, 3 + 10 + 5 + 11 + 7 + 10 + 9 + 10 + 3 + 6);
 }
 
 // Of some keys exactly one must be given: the schema says so, and the check refuses two of them, and none.

@@ -122,6 +122,24 @@ TEST(Cracking, FactorsOnTheStiffnessCount) {
   EXPECT_EQ(lost[2], 0);
 }
 
+// Cells that are weaker crack earlier, by their factor on the strength: of layers with 0.5, 1 and 2 times f_t, those
+// crack that the tension has reached.
+TEST(Cracking, FactorsOnTheStrengthCount) {
+  model::Definition definition = test::block({3, 2, 2}, 0.01, concrete);
+  definition.materials[0].fracture = fracture();
+  definition.body.strengths = {0.5, 1, 2, 0.5, 1, 2, 0.5, 1, 2, 0.5, 1, 2};
+  for (const auto& [tension, layers] : {std::pair{1.4e6, 0}, {1.6e6, 1}, {2.9e6, 1}, {3.1e6, 2}, {6.1e6, 3}}) {
+    model::Model model = model::make_model(definition, Communicator::world());
+    model::State state(model);
+    failure::Cracking cracking(model, state);
+    stretch(model, state, strain_of(tension, 0, {1, 0, 0}));
+    cracking.follow(1e-9);
+    lattice::for_each_owned(model.layout(), [&](auto i, auto, auto, auto n) {
+      if (model.lattice.cell.component(0)[n] != 0) EXPECT_EQ(state.crack.component(1)[n] > 0, i < layers) << tension;
+    });
+  }
+}
+
 // A bar along x with a weaker layer of cells in the middle, held and pulled by smooth platens.
 model::Definition bar(double d, material::Kinematics kinematics) {
   model::Definition definition =

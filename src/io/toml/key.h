@@ -105,7 +105,11 @@ const std::vector<Key<model::BodyDefinition>>& keys_of(Tag<model::BodyDefinition
 const std::vector<Key<model::ScanDefinition>>& keys_of(Tag<model::ScanDefinition>);
 const std::vector<Key<model::MaterialDefinition>>& keys_of(Tag<model::MaterialDefinition>);
 const std::vector<Key<material::Fracture>>& keys_of(Tag<material::Fracture>);
+const std::vector<Key<material::Scatter>>& keys_of(Tag<material::Scatter>);
+const std::vector<Key<model::GrainBoundaryDefinition>>& keys_of(Tag<model::GrainBoundaryDefinition>);
 const std::vector<Key<model::RegionDefinition>>& keys_of(Tag<model::RegionDefinition>);
+const std::vector<Key<model::CrackDefinition>>& keys_of(Tag<model::CrackDefinition>);
+const std::vector<Key<model::StopDefinition>>& keys_of(Tag<model::StopDefinition>);
 const std::vector<Key<model::BoundaryDefinition>>& keys_of(Tag<model::BoundaryDefinition>);
 const std::vector<Key<model::LoadDefinition>>& keys_of(Tag<model::LoadDefinition>);
 const std::vector<Key<model::AnalysisDefinition>>& keys_of(Tag<model::AnalysisDefinition>);

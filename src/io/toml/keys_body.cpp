@@ -18,6 +18,8 @@ const std::vector<Key<Definition>>& keys_of(Tag<Definition>) {
       key<D>("material", &D::materials, "Elastic materials by name, [material.NAME]; at least one.",
              {.required = true}),
       key<D>("region", &D::regions, "Shapes, [[region]], that give cells another material or none; later ones win."),
+      key<D>("crack", &D::pre_cracks,
+             "Cracks, [[crack]], that a body of materials with a fracture has from the start."),
       key<D>("boundary", &D::boundaries,
              "Prescribed motions, [[boundary]], each of the nodes of one face, box or point."),
       key<D>("load", &D::loads,
@@ -93,6 +95,12 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
       key<D>("factor", &D::factor,
              "File of factors, 0 to 1, on the stiffness of each cell (.npy, .vti, .mha, .mhd, .nrrd); unset: 1.",
              {.example = R"("damage.npy")"}),
+      key<D>("strength", &D::strength,
+             "File of factors, above 0, on the strength of each cell, in the same formats; unset: 1.",
+             {.example = R"("strength.npy")"}),
+      key<D>("grain_boundary", &D::grain_boundary,
+             "What becomes of the cells along the boundaries of grains; unset: nothing.",
+             {.title = "grain_boundary", .example = R"({labels = "grains.npy", strength = 0.5})"}),
   };
   return keys;
 }
@@ -110,6 +118,8 @@ const std::vector<Key<MaterialDefinition>>& keys_of(Tag<MaterialDefinition>) {
       key<D>(
           "density", [](auto& m) -> auto& { return m.elastic.density; }, "Mass per volume.",
           {.dimension = Dimension::density, .required = true, .range = ranges::density, .example = R"("2000 kg/m^3")"}),
+      key<D>("stiffness_scatter", &D::stiffness_scatter, "How the stiffness differs from cell to cell; unset: not.",
+             {.title = "stiffness_scatter", .example = R"({distribution = "normal", variation = 0.1})"}),
       key<D>("fracture", &D::fracture, "What it takes to crack the material; unset: it never does.",
              {.title = "fracture", .example = R"({tensile_strength = "3 MPa", fracture_energy = "100 J/m^2"})"}),
   };
@@ -136,6 +146,9 @@ const std::vector<Key<material::Fracture>>& keys_of(Tag<material::Fracture>) {
           .only_for("a cohesion", {"cohesion"}, shears),
       key<D>("residual_friction_angle", &D::residual_friction_angle, "Friction of closed crack faces on each other.",
              {.dimension = Dimension::angle, .range = ranges::friction_angle, .example = R"("30 deg")"}),
+      key<D>("strength_scatter", &D::strength_scatter,
+             "How strength and cohesion, alike, differ from cell to cell; unset: not.",
+             {.title = "strength_scatter", .example = R"({modulus = 10})"}),
   };
   return keys;
 }

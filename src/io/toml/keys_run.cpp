@@ -43,6 +43,8 @@ const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
              "found anew.",
              {.range = ranges::event_count, .example = "1000"})
           .only_for("type \"static\"", {"type"}, [](const D& analysis) { return analysis.type == Type::statics; }),
+      of_stepped(key<D>("stop_when", &D::stop_when, "What ends the run before its time; unset: nothing.",
+                        {.title = "stop_when", .example = R"({probe = "pull", below = 0.2})"})),
       key<D>("start_from", &D::start_from,
              "Output directory of an earlier run whose displacements are the start of this one.",
              {.example = R"("out/loaded")"})
@@ -88,6 +90,8 @@ const std::vector<Key<OutputDefinition>>& keys_of(Tag<OutputDefinition>) {
       key<D>("checkpoint_every_wall", &D::checkpoint_wall, "Wall time between checkpoints.",
              {.dimension = Dimension::time, .range = ranges::time, .example = R"("1 hour")"}),
       key<D>("report", &D::report, "Write report.html at the end."),
+      key<D>("crack_surface", &D::crack_surface,
+             "Write the surface of the cracks with each sample, where a material can crack."),
   };
   return keys;
 }

@@ -24,6 +24,8 @@ std::string resolved_toml(const model::Definition& definition) {
   model::Definition resolved = definition;
   make_absolute(definition.directory, resolved.body.image);
   make_absolute(definition.directory, resolved.body.factor);
+  make_absolute(definition.directory, resolved.body.strength);
+  if (resolved.body.grain_boundary) make_absolute(definition.directory, resolved.body.grain_boundary->labels);
   make_absolute(definition.directory, resolved.analysis.start_from);
   for (auto& region : resolved.regions) make_absolute(definition.directory, region.file);
 
@@ -34,6 +36,7 @@ std::string resolved_toml(const model::Definition& definition) {
   for (const auto& material : resolved.materials)
     write_table(fmt::format("[material.{}]", toml_key(material.name)), material, out);
   for (const auto& region : resolved.regions) write_table("[[region]]", region, out);
+  for (const auto& crack : resolved.pre_cracks) write_table("[[crack]]", crack, out);
   for (const auto& boundary : resolved.boundaries) write_table("[[boundary]]", boundary, out);
   for (const auto& load : resolved.loads) write_table("[[load]]", load, out);
   write_table("[analysis]", resolved.analysis, out);
