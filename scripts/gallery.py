@@ -19,6 +19,7 @@ import struct
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 EXAMPLES = ROOT / "examples"
@@ -30,6 +31,7 @@ class Results:
     """Output directory of a run."""
 
     def __init__(self, directory):
+        self._directory = directory
         self.summary = json.loads((directory / "summary.json").read_text())
         self.modes = self.summary.get("modes", [])
         if self.modes:
@@ -59,6 +61,18 @@ class Results:
         before = max(after - 1, 0)
         span = self.time[after] - self.time[before]
         return values[before] + (values[after] - values[before]) * ((time - self.time[before]) / span if span else 1)
+
+    def crack(self):
+        """Cells of cracks.vtp: (time, x, y, z) of each, when it cracked through [s] and the centre of its cut [m]."""
+        root = xml.etree.ElementTree.parse(self._directory / "cracks.vtp").getroot()
+        arrays = {array.get("Name"): array.text.split() for array in root.iter("DataArray")}
+        points = [[float(x) for x in arrays["Points"][i:i + 3]] for i in range(0, len(arrays["Points"]), 3)]
+        cells, begin = [], 0
+        for time, end in zip(arrays["time"], map(int, arrays["offsets"])):
+            corners = [points[int(c)] for c in arrays["connectivity"][begin:end]]
+            cells.append((float(time), *(sum(axis) / len(corners) for axis in zip(*corners))))
+            begin = end
+        return cells
 
     def rises(self, path, level, after=0):
         """Times [s] later than `after` at which the values rise through a level."""

@@ -9,6 +9,7 @@ theory beside them. --out writes NN.png into another directory instead.
 import argparse
 import io
 import pathlib
+import runpy
 import subprocess
 import sys
 import tempfile
@@ -279,10 +280,46 @@ def sandstone(maker):
     return drawn(fig)
 
 
+def kalthoff_winkler(maker):
+    """Both halves of the plate with their cracks by time, on the largest tension; and the way of the tip."""
+    example = "20_kalthoff_winkler"
+    expected = runpy.run_path(str(EXAMPLES / example / "expected.py"))
+    results = Results(maker.run(example))
+    cells = np.array(results.crack())
+    simulation = maker.simulation(example)
+    simulation.run()
+    stress = simulation.field("stress")[:, 0]
+    middle, radius = 0.5 * (stress[0] + stress[1]), np.hypot(0.5 * (stress[0] - stress[1]), stress[5])
+    tension = np.ma.masked_array(1e-6 * (middle + radius), simulation.cells[0] == 0)
+    x, y = 1e3 * simulation.coordinates[0], 1e3 * simulation.coordinates[1]
+
+    fig, (left, right) = figure(2)
+    left.grid(False)
+    for side in (1, -1):
+        left.pcolormesh(x, side * y, tension, cmap="Greys", vmin=0, vmax=1200)
+        dots = left.scatter(1e3 * cells[:, 1], side * 1e3 * cells[:, 2], c=1e6 * cells[:, 0], s=7, cmap="plasma", vmin=10, vmax=70)
+    fig.colorbar(dots, ax=left, location="top", label="cells crack through at [µs]; grey: tension")
+    left.annotate("", (0, 0), (-22, 0), arrowprops={"arrowstyle": "simple", "color": BLUE})
+    left.set(xlim=(-25, 101), ylim=(-101, 101), aspect="equal", xlabel="x [mm]", ylabel="y [mm]")
+
+    crack = expected["main_crack"](results)
+    tip = expected["NOTCH"]
+    times = 1e6 * np.array([time for time, _, _ in crack])
+    way = 1e3 * np.maximum.accumulate([np.hypot(x - tip[0], y - tip[1]) for _, x, y in crack])
+    right.plot(times, way, color=BLUE, label="tip of the crack")
+    start = times[0]
+    limit = expected["rayleigh_speed"]() * 1e-3
+    right.plot([start, start + 30], [way[0], way[0] + 30 * limit], label="Rayleigh's waves", **THEORY)
+    right.set(xlabel="time [µs]", ylabel="way of the tip [mm]", xlim=(15, 70), ylim=(0, 80))
+    right.legend(loc="upper left")
+    return drawn(fig)
+
+
 PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
             "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
             "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
-            "10_tunnel": tunnel, "12_l_panel": l_panel, "30_sandstone": sandstone, "50_tuning_fork": tuning_fork}
+            "10_tunnel": tunnel, "12_l_panel": l_panel, "20_kalthoff_winkler": kalthoff_winkler, "30_sandstone": sandstone,
+            "50_tuning_fork": tuning_fork}
 
 
 def main():
