@@ -253,6 +253,29 @@ def l_panel(maker):
     return drawn(fig)
 
 
+def pressurised_tube(maker):
+    """Hoop stress in the middle of the tube's length: a map, and of every cell against its distance from the axis."""
+    simulation = maker.simulation("40_pressurised_tube")
+    simulation.run()
+    x, y = (1e3 * c for c in simulation.coordinates[:2])
+    X, Y = np.meshgrid(0.5 * (x[1:] + x[:-1]) - 1, 0.5 * (y[1:] + y[:-1]) - 2, indexing="ij")
+    xx, yy, _, _, _, xy = (1e-6 * component.T for component in simulation.field("stress")[:, 12])
+    r = np.hypot(X, Y)
+    hoop = (xx * Y**2 + yy * X**2 - 2 * xy * X * Y) / r**2
+    solid = (xx != 0) | (yy != 0)
+    fig, (left, right) = figure(2)
+    left.grid(visible=False)
+    shown = left.pcolormesh(x, y, np.where(solid, hoop, np.nan).T, cmap="viridis", vmin=30, vmax=90)
+    fig.colorbar(shown, ax=left, label="hoop stress [MPa]", shrink=0.8)
+    left.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal")
+    right.plot(r[solid], hoop[solid], "o", color=BLUE, markersize=3, label="cells, cut ones too")
+    along = np.linspace(25, 50, 100)
+    right.plot(along, 50 / 3 * (1 + (50 / along) ** 2), label="Lamé", **THEORY)
+    right.set(xlabel="distance from the axis [mm]", ylabel="hoop stress [MPa]", ylim=(0, 100))
+    right.legend(loc="lower left")
+    return drawn(fig)
+
+
 def tuning_fork(maker):
     return side_by_side(*maker.bodies("50_tuning_fork", ["sample=0"], ["sample=2"], look="y"))
 
@@ -319,7 +342,7 @@ PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilev
             "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
             "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
             "10_tunnel": tunnel, "12_l_panel": l_panel, "20_kalthoff_winkler": kalthoff_winkler, "30_sandstone": sandstone,
-            "50_tuning_fork": tuning_fork}
+            "40_pressurised_tube": pressurised_tube, "50_tuning_fork": tuning_fork}
 
 
 def main():

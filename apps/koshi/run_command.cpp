@@ -41,6 +41,12 @@ void leave_together(const Communicator& world, const std::string& message, int e
 // Refuses more processes than the nodes of the body can be shared among, before any is started.
 void check_ranks(model::Definition definition, int ranks) {
   definition.regions.clear();
+  // What may name a region or a selection.
+  definition.selections.clear();
+  definition.boundaries.clear();
+  definition.loads.clear();
+  definition.probes.clear();
+  definition.analysis.stop_when.reset();  // it names a probe
   try {
     lattice::make_partition(model::make_grid(io::load_files(definition)), ranks);
   } catch (const InputError& error) {

@@ -47,10 +47,13 @@ struct GrainBoundaryDefinition {
 
 /// [body]
 struct BodyDefinition {
+  /// What becomes of a cell that a surface cuts: whole or empty by its centre, or the part of it inside.
+  enum class Surface { stairs, cut };
   Vec3 origin{};                               ///< lower corner [m]
   Vec3 size{};                                 ///< [m], multiples of the spacing; unset with an image
   std::string material;                        ///< name of the cells' material; unset with an image's `materials`
   std::array<bool, 3> periodic{};              ///< opposite faces are joined
+  Surface surface = Surface::stairs;           ///< of regions
   std::string image;                           ///< file of cell values (.npy, .vti, .mha, .mhd, .nrrd); empty: none
   std::map<int, std::string> image_materials;  ///< image value -> material name or "void" (key `materials`)
   std::optional<ScanDefinition> scan;          ///< how values become cells; unset: each value is a cell
@@ -77,10 +80,19 @@ struct MaterialDefinition {
   bool operator==(const MaterialDefinition&) const = default;
 };
 
+/// A cell that a surface from a file cuts: inside is what lies below a plane.
+struct CutCell {
+  std::int64_t cell = 0;  ///< its index in the box, x fastest
+  Vec3 normal{};          ///< of the plane, of length 1, pointing out of the body
+  double offset = 0;      ///< of the plane from the cell's centre along the normal, in spacings
+  bool operator==(const CutCell&) const = default;
+};
+
 /// [[region]]: gives the cells whose centre lies inside the shape a material; later regions win.
 struct RegionDefinition {
   /// stl: a surface from a file.
   enum class Shape { box, sphere, cylinder, half_space, stl };
+  std::string name;                  ///< by which selections find its surface; empty: none
   Shape shape = Shape::box;          ///< decides which members count
   std::string material;              ///< a material's name or "void"
   Vec3 min{};                        ///< box: lower corner [m]
@@ -94,6 +106,9 @@ struct RegionDefinition {
   std::string file;                  ///< stl: a closed surface
   double scale = 1;                  ///< stl: length of the file's unit [m]
   std::vector<std::uint8_t> inside;  ///< stl: 1 for each cell inside, x fastest; filled from the file
+  std::vector<CutCell> cut_cells;    ///< stl, surface "cut": cells it cuts, by index; filled from the file
+  /// stl: corners [m], counter-clockwise seen from outside; filled from the file where a selection names the surface.
+  std::vector<std::array<Vec3, 3>> triangles;
   bool operator==(const RegionDefinition&) const = default;
 };
 
@@ -115,13 +130,48 @@ struct CrackDefinition {
 /// Faces of the box of cells.
 enum class Face { x_min, x_max, y_min, y_max, z_min, z_max };
 
-/// Nodes a boundary, load or probe applies to: exactly one of the three. A point selects the nearest node, which must
-/// lie within half a spacing in every direction.
+/// A ball; selects what lies inside or on its border.
+struct SphereShape {
+  Vec3 center{};      ///< [m]
+  double radius = 0;  ///< [m]
+  bool operator==(const SphereShape&) const = default;
+};
+/// A round bar; the same.
+struct CylinderShape {
+  Vec3 start{};       ///< one end of the axis [m]
+  Vec3 end{};         ///< the other [m]
+  double radius = 0;  ///< [m]
+  bool operator==(const CylinderShape&) const = default;
+};
+/// One side of a plane; the same.
+struct HalfSpaceShape {
+  Vec3 point{};   ///< on its plane [m]
+  Vec3 normal{};  ///< the direction that points out of it
+  bool operator==(const HalfSpaceShape&) const = default;
+};
+
+/// Nodes, or the part of a surface, that a boundary, load or probe applies to: exactly one member. A point selects the
+/// nearest node, which must lie within half a spacing in every direction.
 struct Selection {
   std::optional<Face> face;                  ///< of the box of cells
   std::optional<std::pair<Vec3, Vec3>> box;  ///< {min, max} [m], nodes inside or on the border
   std::optional<Vec3> point;                 ///< [m]
+  std::optional<SphereShape> sphere;         ///< nodes inside or on the border
+  std::optional<CylinderShape> cylinder;     ///< the same
+  std::optional<HalfSpaceShape> half_space;  ///< the same
+  std::string surface;                       ///< name of a region: what of its surface is surface of the body
+  std::string named;                         ///< a selection by its name (key `selection`)
+  std::vector<std::string> any_of;           ///< names of selections: what is in one of them (key `union`)
+  std::vector<std::string> all_of;           ///< what is in all of them (key `intersection`)
+  std::vector<std::string> first_of;         ///< what is in the first and in none of the others (key `difference`)
   bool operator==(const Selection&) const = default;
+};
+
+/// [[selection]]: a selection with a name, for others to use.
+struct SelectionDefinition {
+  std::string name;     ///< unlike any other
+  Selection selection;  ///< what it stands for
+  bool operator==(const SelectionDefinition&) const = default;
 };
 
 /// Factor over time, piecewise linear, constant outside; pairs {t [s], factor}, t ascending; empty: 1.
@@ -151,8 +201,8 @@ struct LoadDefinition {
   Selection selection;                             ///< none for acceleration
   std::optional<Vec3> force;                       ///< total [N]
   Distribution distribution = Distribution::area;  ///< of the total force
-  std::optional<Vec3> traction;                    ///< [Pa], on a face or the part of it in a box
-  std::optional<double> pressure;                  ///< [Pa], against the face's outward normal
+  std::optional<Vec3> traction;                    ///< [Pa], on a face, the part of it in a box, or a surface
+  std::optional<double> pressure;                  ///< [Pa], against the outward normal
   std::optional<Vec3> acceleration;                ///< body force per mass [m/s^2]
   History history;                                 ///< factor on the load
   bool operator==(const LoadDefinition&) const = default;
@@ -250,23 +300,26 @@ class Places {
 
 /// A whole case.
 struct Definition {
-  std::string title;                           ///< for people
-  LatticeDefinition lattice;                   ///< [lattice]
-  BodyDefinition body;                         ///< [body]
-  std::vector<MaterialDefinition> materials;   ///< [material.NAME]; index 1 in a cell is the first
-  std::vector<RegionDefinition> regions;       ///< [[region]], later ones win
-  std::vector<CrackDefinition> pre_cracks;     ///< [[crack]]
-  std::vector<BoundaryDefinition> boundaries;  ///< [[boundary]]
-  std::vector<LoadDefinition> loads;           ///< [[load]]
-  AnalysisDefinition analysis;                 ///< [analysis]
-  std::vector<ProbeDefinition> probes;         ///< [[probe]]
-  OutputDefinition output;                     ///< [output]
+  std::string title;                            ///< for people
+  LatticeDefinition lattice;                    ///< [lattice]
+  BodyDefinition body;                          ///< [body]
+  std::vector<MaterialDefinition> materials;    ///< [material.NAME]; index 1 in a cell is the first
+  std::vector<RegionDefinition> regions;        ///< [[region]], later ones win
+  std::vector<SelectionDefinition> selections;  ///< [[selection]]
+  std::vector<CrackDefinition> pre_cracks;      ///< [[crack]]
+  std::vector<BoundaryDefinition> boundaries;   ///< [[boundary]]
+  std::vector<LoadDefinition> loads;            ///< [[load]]
+  AnalysisDefinition analysis;                  ///< [analysis]
+  std::vector<ProbeDefinition> probes;          ///< [[probe]]
+  OutputDefinition output;                      ///< [output]
 
   Places places;                ///< for messages
   std::string directory = ".";  ///< relative file names (image, stl, start_from) are looked up here
 
   /// The calibration in force: the one set, else the default for the cell and sharing.
   material::Calibration calibration() const;
+  /// Whether regions cut cells.
+  bool cuts() const { return body.surface == BodyDefinition::Surface::cut && !regions.empty(); }
   /// Whether some material can crack.
   bool cracks() const;
   /// Whether this is an equilibrium that follows its cracks event by event.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -42,6 +43,13 @@ struct Probe {
   std::vector<Vec3> arms;                              ///< of a moment: positions of the nodes from its centre [m]
 };
 
+/// Cells cut by surfaces, all ranks.
+struct CutCells {
+  std::int64_t count = 0;  ///< with a part inside and a part outside
+  double volume = 0;       ///< of the whole body in cells
+  double left_out = 0;     ///< volume in cells of slivers that became empty
+};
+
 /// The whole problem on one rank.
 struct Model {
   Definition definition;                     ///< as checked
@@ -59,6 +67,7 @@ struct Model {
   std::int64_t node_count = 0;            ///< nodes with at least one cell, all ranks
   std::int64_t cell_count = 0;            ///< solid cells, all ranks
   std::int64_t motion_count = 0;          ///< prescribed components, all ranks
+  std::optional<CutCells> cut;            ///< unset where surfaces cut no cells
 
   int components() const { return lattice.components(); }           ///< unknowns per node, 6 or 3
   const lattice::Layout& layout() const { return lattice.layout; }  ///< of this rank's nodes
@@ -67,7 +76,8 @@ struct Model {
     return strength.components() == 0 ? 1 : static_cast<double>(strength.component(0)[n]);
   }
   double volume() const {
-    return static_cast<double>(cell_count) * lattice.grid.d * lattice.grid.d * lattice.grid.d;
+    const double cells = cut ? cut->volume : static_cast<double>(cell_count);
+    return cells * lattice.grid.d * lattice.grid.d * lattice.grid.d;
   }  ///< of the body [m^3]
 };
 

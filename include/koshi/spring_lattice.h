@@ -33,6 +33,9 @@ struct SpringLattice {
   /// Kernels and measures read it every time, so its values may change between two steps; a static analysis makes its
   /// hierarchy from it when it begins. Shared springs only.
   lattice::Field<float> factor;
+  /// Part of a cell's volume that is inside the body; no components where surfaces cut no cells. Factors have it in
+  /// them. Frozen.
+  lattice::Field<float> fraction;
   std::vector<material::Springs> springs;  ///< by material index; entry 0 (empty) is zero
   /// Plain springs only, known on owned and ghost nodes: stiffness of forward bonds, component 2 slot: kn [N/m],
   /// 2 slot + 1: kt [N/m].
@@ -45,6 +48,10 @@ struct SpringLattice {
   double factor_of(std::int64_t n) const {
     return factor.components() == 0 ? 1 : static_cast<double>(factor.component(0)[n]);
   }
+  /// Of the cell at index n, 1 where there is no field of fractions.
+  double fraction_of(std::int64_t n) const {
+    return fraction.components() == 0 ? 1 : static_cast<double>(fraction.component(0)[n]);
+  }
 };
 
 /// A lattice with its cells, not yet its springs: `material_of(global cell)` gives the material index (0 = empty);
@@ -53,7 +60,11 @@ SpringLattice make_cells(const lattice::Grid& grid, std::shared_ptr<const lattic
                          std::shared_ptr<const lattice::Halo> halo,
                          const std::function<std::uint16_t(const Int3&)>& material_of);
 
-/// Gives the cells factors: `factor_of(global cell)`, 0 ... 1.
+/// Gives the cells the parts of their volume that are inside: `fraction_of(global cell)`, 0 ... 1; the factors of the
+/// cells are the same.
+void make_fractions(SpringLattice& body, const std::function<float(const Int3&)>& fraction_of);
+
+/// Gives the cells factors, `factor_of(global cell)`, 0 ... 1, times their fractions.
 void make_factors(SpringLattice& body, const std::function<float(const Int3&)>& factor_of);
 
 /// Calls f(global cell, index) for the cells that touch an owned node; cells outside the body are left out.

@@ -24,6 +24,7 @@ from .case import (
     Probe,
     Region,
     RunError,
+    Selection,
     load,
 )
 from .simulation import Measurement, Mode, Result, Simulation, run
@@ -46,6 +47,7 @@ __all__ = [
     "Region",
     "Result",
     "RunError",
+    "Selection",
     "Simulation",
     "calibrate",
     "load",

@@ -66,6 +66,8 @@ class Body:
     """lower corner [m], default (0, 0, 0)"""
     periodic: Sequence[str] | Sequence[bool] | None = None
     """axes across which opposite faces are joined, such as ["x", "y"]; default none"""
+    surface: Literal["stairs", "cut"] | None = None
+    """cells that a region's surface passes through: whole or empty by their centre (default), or the part inside"""
 
 
 @dataclass
@@ -114,6 +116,36 @@ class Region:
     """stl: a closed surface"""
     scale: Quantity | None = None
     """stl: length of the file's unit, default 1 m"""
+    name: str | None = None
+    """by which selections find its surface"""
+
+
+@dataclass
+class Selection:
+    """A selection with a name, for others to use: exactly one of what follows the name."""
+
+    name: str
+    """unlike any other"""
+    face: Face | None = None
+    """all nodes of a face of the box"""
+    box: Mapping[Literal["min", "max"], Vector] | None = None
+    """what lies inside or on the border [m]"""
+    point: Vector | None = None
+    """the nearest node [m]"""
+    surface: str | None = None
+    """name of a region: its surface"""
+    sphere: Mapping[str, Quantity | Vector] | None = None
+    """what lies in a ball: center, radius [m]"""
+    cylinder: Mapping[str, Quantity | Vector] | None = None
+    """what lies in a round bar: start, end, radius [m]"""
+    half_space: Mapping[str, Vector] | None = None
+    """what lies on one side of a plane: point [m], normal"""
+    union: Sequence[str] | None = None
+    """what is in any of these selections"""
+    intersection: Sequence[str] | None = None
+    """what is in all of these selections"""
+    difference: Sequence[str] | None = None
+    """what is in the first of these selections and in none of the others"""
 
 
 @dataclass
@@ -150,6 +182,10 @@ class Boundary:
     """nodes inside or on the border [m]"""
     point: Vector | None = None
     """the nearest node [m]"""
+    surface: str | None = None
+    """name of a region: the corners of the cells at its surface"""
+    selection: str | None = None
+    """name of a selection"""
     fix: Sequence[Literal["x", "y", "z", "rx", "ry", "rz"]] | None = None
     """components held at zero"""
     displacement: Mapping[str, Quantity] | None = None
@@ -178,6 +214,10 @@ class Load:
     """nodes inside or on the border [m]"""
     point: Vector | None = None
     """the nearest node [m]"""
+    surface: str | None = None
+    """name of a region: its surface"""
+    selection: str | None = None
+    """name of a selection"""
     force: Vector | None = None
     """in total [N]"""
     traction: Vector | None = None
@@ -238,6 +278,10 @@ class Probe:
     """nodes inside or on the border [m]"""
     point: Vector | None = None
     """the nearest node [m]"""
+    surface: str | None = None
+    """name of a region: the corners of the cells at its surface"""
+    selection: str | None = None
+    """name of a selection"""
     quantity: Literal["displacement", "rotation", "velocity", "reaction", "moment", "stress", "strain"] | None = None
     """default "displacement" """
     reduce: Literal["mean", "area-mean", "sum", "max"] | None = None
@@ -282,6 +326,8 @@ class Case:
     """shapes of another material, later ones win"""
     crack: list[Crack] = field(default_factory=list)
     """cracks from the start"""
+    selection: list[Selection] = field(default_factory=list)
+    """selections by name"""
     boundary: list[Boundary] = field(default_factory=list)
     """prescribed motions"""
     load: list[Load] = field(default_factory=list)
@@ -307,7 +353,7 @@ def load(file: str | os.PathLike, overrides: Sequence[str] = ()) -> Case:
     """
     values = tomllib.loads(_koshi.read_case(os.fspath(file), list(overrides)).resolved_toml())
     tables = {"lattice": Lattice, "body": Body, "analysis": Analysis, "output": Output}
-    lists = {"region": Region, "crack": Crack, "boundary": Boundary, "load": Load, "probe": Probe}
+    lists = {"region": Region, "crack": Crack, "selection": Selection, "boundary": Boundary, "load": Load, "probe": Probe}
     parts: dict = {"material": {name: Material(**m) for name, m in values["material"].items()}}
     parts |= {name: cls(**values[name]) for name, cls in tables.items()}
     parts |= {name: [cls(**entry) for entry in values.get(name, [])] for name, cls in lists.items()}

@@ -68,6 +68,11 @@ std::string check(const model::Definition& definition, const Communicator& commu
   const Int3& cells = model.lattice.grid.cells;
   text += fmt::format("cells         {} x {} x {}, {} solid\nnodes         {}, {} unknowns\n", cells[0], cells[1],
                       cells[2], model.cell_count, model.node_count, model.node_count * model.components());
+  if (model.cut) {
+    const double cell = model.volume() / model.cut->volume;
+    text += fmt::format("volume        {:.9g} m^3, {} cells are cut; slivers of {:.3g} m^3 are left out\n",
+                        model.volume(), model.cut->count, model.cut->left_out * cell);
+  }
   const double body = model::predicted_memory(model.definition, communicator.size());
   text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB, of it {:.3g} GB for the body\n",
                       model.motion_count, (libraries + body) / 1e9, body / 1e9);

@@ -21,7 +21,7 @@ Field<double> on_cells(const model::Model& model, const Field<double>& u, int co
   const std::uint16_t* cell = model.lattice.cell.component(0);
   lattice::for_each_owned(model.layout(), [&](auto, auto, auto, auto n) {
     if (cell[n] == 0) return;
-    const mechanics::CellState state = mechanics::cell_state(model.lattice, u, n);
+    const mechanics::CellState state = mechanics::material_state(model.lattice, u, n);
     for (int c = 0; c < components; ++c) field.component(c)[n] = f(state, c);
   });
   return field;

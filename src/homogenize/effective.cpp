@@ -183,6 +183,11 @@ void require_loadable_cell(const model::Definition& definition, Boundary boundar
   if (!definition.loads.empty())
     throw InputError(places.find("load[0]"),
                      "the six load cases of an effective stiffness are mean strains; remove the loads");
+  if (definition.cuts())
+    throw InputError(
+        places.find("body.surface"),
+        "phases and bounds of an effective stiffness are counted in whole cells, but surfaces cut cells of "
+        "this body; set surface = \"stairs\"");
   if (definition.lattice.springs == material::Sharing::plain)
     throw InputError(places.find("lattice.springs"),
                      "plain springs belong to no cell, so that stress has no mean over cells of several materials; "

@@ -5,6 +5,7 @@
 
 #include "io/cell_image.h"
 #include "io/surface.h"
+#include "io/surface_cut.h"
 #include "koshi/input.h"
 #include "model/check.h"
 #include "model/regions.h"
@@ -54,6 +55,12 @@ model::Definition load_files(model::Definition definition) {
     const lattice::Grid grid = model::make_grid(definition);
     region.inside = load(definition, fmt::format("region[{}].file", r), region.file,
                          [&](const auto& path) { return cells_inside(path, region.scale, grid); });
+    if (definition.cuts())
+      region.cut_cells = load(definition, fmt::format("region[{}].file", r), region.file,
+                              [&](const auto& path) { return cells_cut(path, region.scale, grid); });
+    if (!region.name.empty())
+      region.triangles = load(definition, fmt::format("region[{}].file", r), region.file,
+                              [&](const auto& path) { return outward_triangles(path, region.scale); });
   }
   return definition;
 }

@@ -88,21 +88,35 @@ CellState cell_state(const model::SpringLattice& body, const lattice::Field<doub
   return cell_state(body, cell_motion(body, u, cell), cell);
 }
 
+CellState material_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
+  CellState state = cell_state(body, u, cell);
+  const double share = 1 / body.fraction_of(cell);
+  for (double& stress : state.stress) stress *= share;
+  state.energy *= share;
+  return state;
+}
+
 CellState node_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t node) {
-  CellState mean;
-  int cells = 0;
+  // Cells that a surface cuts count where there is no whole one.
+  std::array<std::int64_t, 8> cells{};
+  std::size_t whole = 0, count = 0;
   for (int corner = 0; corner < 8; ++corner) {
     const std::int64_t cell = node - body.layout.offset({corner & 1, corner >> 1 & 1, corner >> 2});
     if (body.cell.component(0)[cell] == 0) continue;
-    ++cells;
-    const CellState state = cell_state(body, u, cell);
+    cells[count++] = cell;
+    if (body.fraction_of(cell) == 1) std::swap(cells[whole++], cells[count - 1]);
+  }
+  if (whole > 0) count = whole;
+  CellState mean;
+  for (std::size_t c = 0; c < count; ++c) {
+    const CellState state = material_state(body, u, cells[c]);
     for (int v = 0; v < 6; ++v) {
       mean.strain[v] += state.strain[v];
       mean.stress[v] += state.stress[v];
     }
     mean.rotation = mean.rotation + state.rotation;
   }
-  const double share = cells == 0 ? 0 : 1.0 / cells;
+  const double share = count == 0 ? 0 : 1.0 / static_cast<double>(count);
   for (int v = 0; v < 6; ++v) {
     mean.strain[v] *= share;
     mean.stress[v] *= share;

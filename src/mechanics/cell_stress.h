@@ -32,7 +32,10 @@ CellState cell_state(const model::SpringLattice& body, const CellMotion& motion,
 /// Of the cell with lowest corner `cell`, which must touch an owned node and be solid; ghosts of u up to date.
 CellState cell_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell);
 
-/// Mean over the solid cells around an owned node.
+/// The same with stress and energy of the material in the cell: of a cell that a surface cuts, over the part inside.
+CellState material_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell);
+
+/// Mean over the solid cells around an owned node: the whole ones, or the cut ones where there are no others.
 CellState node_state(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t node);
 
 }  // namespace koshi::mechanics

@@ -120,10 +120,18 @@ void check_factor(const Checker& check) {
   if (!definition.body.factor.empty()) check_cell_file(check, "body.factor", "the file", definition.body.factor);
 }
 
+void check_cut(const Checker& check) {
+  if (!check.definition.cuts() || check.definition.lattice.springs == material::Sharing::shared) return;
+  check.fail("body.surface",
+             "a cut cell has springs of its own, weaker ones, which lattice.springs = \"plain\" knows not; take "
+             "\"shared\", or surface = \"stairs\"");
+}
+
 void check_box_of_cells(const Checker& check) {
   const BodyDefinition& body = check.definition.body;
   check.within(ranges::position, "body.origin", body.origin);
   check_factor(check);
+  check_cut(check);
   if (body.image.empty()) {
     make_grid(check.definition);
     if (body.cells.empty()) check_material_name(check, "body.material", body.material);

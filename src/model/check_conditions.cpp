@@ -5,6 +5,7 @@
 #include <set>
 
 #include "model/check.h"
+#include "model/check_selection.h"
 #include "model/choices.h"
 
 namespace koshi::model {
@@ -25,23 +26,6 @@ void check_names(const Checker& check, const std::string& section, const std::ve
     if (!names.insert(name).second)
       check.fail(path, fmt::format("two {} tables are called \"{}\"; names must differ", section, name));
   }
-}
-
-void check_selection(const Checker& check, const std::string& path, const std::string& title, const Selection& s) {
-  std::vector<std::string> given;
-  if (s.face) given.emplace_back("face");
-  if (s.box) given.emplace_back("box");
-  if (s.point) given.emplace_back("point");
-  if (given.empty()) check.fail(path, fmt::format("{} selects nothing; give one of face, box, point", title));
-  if (given.size() > 1)
-    check.fail(path + "." + given[1],
-               fmt::format("{} has both {}; give one of face, box, point", title, fmt::join(given, " and ")));
-  if (s.box) {
-    check.within(ranges::position, path + ".box.min", s.box->first);
-    check.within(ranges::position, path + ".box.max", s.box->second);
-    check.ordered(path + ".box", s.box->first, s.box->second);
-  }
-  if (s.point) check.within(ranges::position, path + ".point", *s.point);
 }
 
 void check_history(const Checker& check, const std::string& path, const History& history) {
@@ -160,9 +144,9 @@ void check_load(const Checker& check, const std::string& path, const LoadDefinit
 
   const Selection& selection = load.selection;
   if (load.acceleration) {
-    const std::string key = selection.face ? "face" : selection.box ? "box" : "point";
-    if (selection.face || selection.box || selection.point)
-      check.fail(path + "." + key, fmt::format("{} is an acceleration of the whole body; leave {} out", title, key));
+    if (const auto keys = given_keys(selection); !keys.empty())
+      check.fail(path + "." + keys[0],
+                 fmt::format("{} is an acceleration of the whole body; leave {} out", title, keys[0]));
   } else {
     check_selection(check, path, title, selection);
   }
@@ -185,6 +169,7 @@ void check_probe(const Checker& check, const std::string& path, const ProbeDefin
 
 void check_conditions(const Checker& check) {
   const Definition& definition = check.definition;
+  check_selections(check);
   check_names(check, "boundary", definition.boundaries);
   check_names(check, "load", definition.loads);
   check_names(check, "probe", definition.probes);

@@ -82,6 +82,9 @@ inline constexpr auto choices<ScanDefinition::ByteOrder> = std::to_array<Choice<
 template <>
 inline constexpr auto choices<CrackDefinition::Shape> = std::to_array<Choice<CrackDefinition::Shape>>(
     {{"disc", CrackDefinition::Shape::disc}, {"rectangle", CrackDefinition::Shape::rectangle}});
+template <>
+inline constexpr auto choices<BodyDefinition::Surface> = std::to_array<Choice<BodyDefinition::Surface>>(
+    {{"stairs", BodyDefinition::Surface::stairs}, {"cut", BodyDefinition::Surface::cut}});
 
 template <>
 inline constexpr auto choices<Face> = std::to_array<Choice<Face>>({

@@ -7,6 +7,7 @@
 #include "base/collective.h"
 #include "base/exact_sum.h"
 #include "model/selection.h"
+#include "model/surface_loads.h"
 
 namespace koshi::model {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 // Nodes of a selection; an error when no rank has one.
 std::vector<SelectedNode> nodes_of(const Model& model, const Selection& selection, const std::string& path,
                                    const std::string& title) {
-  const NodeBox box = select(selection, model.lattice.grid, model.definition.places, path);
+  const NodeSet box = select(selection, model.definition, model.lattice.grid, path);
   auto nodes = selected_nodes(model.lattice, box);
   if (model.communicator.sum(static_cast<std::int64_t>(nodes.size())) == 0)
     throw InputError(model.definition.places.find(path),
@@ -132,7 +133,9 @@ std::vector<Load> make_loads(const Model& model) {
   for (std::size_t l = 0; l < model.definition.loads.size(); ++l) {
     const LoadDefinition& load = model.definition.loads[l];
     Load made{{}, load.acceleration.value_or(Vec3{}), load.history};
-    if (!load.acceleration) {
+    if (const auto regions = surfaces_of(load.selection, model.definition); !regions.empty()) {
+      made.forces = surface_forces(model, load, regions, fmt::format("load[{}]", l), title("load", load.name, l));
+    } else if (!load.acceleration) {
       const std::string path = fmt::format("load[{}]", l);
       const auto nodes = nodes_of(model, load.selection, path, title("load", load.name, l));
       // Surface of the selection; every part is a multiple of d^2/4, so count quarters.

@@ -50,7 +50,7 @@ double mixed_bytes(const Definition& definition, const lattice::Grid& grid, int 
   constexpr int rows_sampled = 400;
   constexpr std::int64_t group_nodes = 16;
   const auto material_of = material_of_cells(definition, grid);
-  const auto factor_of = factor_of_cells(definition, grid);
+  const auto factor_of = definition.cuts() ? fraction_of_cells(definition, grid) : factor_of_cells(definition, grid);
   std::minstd_rand random;  // the same sample every time
   // A number that tells cells of different material or factor apart.
   const auto kind_of = [&](const Int3& cell) -> char32_t {
@@ -113,11 +113,11 @@ double predicted_memory(const Definition& definition, int ranks) {
   const int components = rotational ? 6 : 3, inertias = rotational ? 2 : 1;
   const double count = static_cast<double>(nodes[0] * nodes[1]) * static_cast<double>(nodes[2]);
 
-  // The cell's material and its factor, or with plain springs the bonds; inertia; displacement and velocity. Explicit
-  // runs keep the inverse inertia as well.
+  // The cell's material, its factor and fraction, or with plain springs the bonds; inertia; displacement and velocity.
+  // Explicit runs keep the inverse inertia as well.
   const bool plain = definition.lattice.springs == material::Sharing::plain;
-  const bool factors = !definition.body.factors.empty() || definition.varies_in_stiffness();
-  double bytes = 2 + (factors ? 4 : 0) + (definition.varies_in_strength() ? 4 : 0) +
+  const bool factors = !definition.body.factors.empty() || definition.varies_in_stiffness() || definition.cuts();
+  double bytes = 2 + (factors ? 4 : 0) + (definition.varies_in_strength() ? 4 : 0) + (definition.cuts() ? 4 : 0) +
                  (plain ? 17 * lattice::slot_count : 0) + 8 * inertias + 16 * components;
   const bool orients = std::count(definition.output.fields.begin(), definition.output.fields.end(), "orientation") != 0;
   const double sample = sample_bytes(definition) * count;

@@ -6,9 +6,11 @@
 #include <numbers>
 
 #include "base/collective.h"
+#include "base/exact_sum.h"
 #include "koshi/calibration.h"
 #include "lattice/halo.h"
 #include "model/conditions.h"
+#include "model/cut.h"
 #include "model/memory.h"
 #include "model/pre_cracks.h"
 #include "model/regions.h"
@@ -58,15 +60,18 @@ lattice::Field<double> make_inertia(const Model& model) {
   const double eighth = std::pow(model.lattice.grid.d, 3) / 8;
   const auto share_of = density_share_of_cells(model.definition, model.lattice.grid);
   lattice::for_each_owned(layout, [&](auto i, auto j, auto k, auto n) {
+    // Of a cut cell only the part inside has mass, in equal shares for all corners: mass and stiffness then shrink
+    // alike, and the stable step stays. So the radius keeps to whole cells.
     double mass = 0;
     int cells = 0;
     for (int corner = 0; corner < 8; ++corner) {
       const std::array<int, 3> back{corner & 1, corner >> 1 & 1, corner >> 2};
-      const std::uint16_t m = cell[n - layout.offset(back)];
+      const std::int64_t at = n - layout.offset(back);
+      const std::uint16_t m = cell[at];
       if (m == 0) continue;
       ++cells;
       const double share = share_of ? share_of(layout.global({i - back[0], j - back[1], k - back[2]})) : 1;
-      mass += share * model.materials[m].density * eighth;
+      mass += share * model.lattice.fraction_of(at) * model.materials[m].density * eighth;
     }
     inertia.component(0)[n] = mass;
     if (rotational) {
@@ -75,6 +80,25 @@ lattice::Field<double> make_inertia(const Model& model) {
     }
   });
   return inertia;
+}
+
+// What surfaces made of the cells of all ranks.
+CutCells count_cut_cells(const Model& model) {
+  const CutBody body(model.definition, model.lattice.grid);
+  ExactSum volume, left_out;
+  std::int64_t count = 0;
+  lattice::for_each_owned(model.layout(), [&](auto i, auto j, auto k, auto n) {
+    const double fraction = model.lattice.fraction_of(n);
+    if (model.lattice.cell.component(0)[n] != 0) volume += fraction;
+    count += fraction > 0 && fraction < 1;
+    const Int3 cell = model.layout().global({i, j, k});
+    for (int a = 0; a < 3; ++a)
+      if (cell[a] >= model.lattice.grid.cells[a]) return;
+    left_out += body.part_of(cell).left_out;
+  });
+  volume.sum_ranks(model.communicator);
+  left_out.sum_ranks(model.communicator);
+  return {model.communicator.sum(count), volume.value(), left_out.value()};
 }
 
 }  // namespace
@@ -86,9 +110,14 @@ Model make_model(const Definition& definition, const Communicator& communicator)
   const auto partition = std::make_shared<const lattice::Partition>(lattice::make_partition(grid, communicator.size()));
   const auto halo = std::make_shared<const lattice::Halo>(grid, *partition, communicator);
 
-  Model model{definition, communicator, {}, make_cells(grid, partition, halo, material_of_cells(definition, grid)),
-              {},         {},           {}, {},
+  Model model{definition, communicator,
+              {},         make_cells(grid, partition, halo, material_of_cells(definition, grid)),
+              {},         {},
+              {},         {},
+              {},         0,
+              0,          0,
               {}};
+  if (const auto fraction_of = fraction_of_cells(definition, grid)) make_fractions(model.lattice, fraction_of);
   if (const auto factor_of = factor_of_cells(definition, grid)) make_factors(model.lattice, factor_of);
   scatter_stiffness(definition, model.lattice);
   collectively(communicator, [&] { model.strength = strength_of_cells(definition, model.lattice); });
@@ -102,6 +131,7 @@ Model make_model(const Definition& definition, const Communicator& communicator)
     throw InputError(definition.places.find("body"),
                      "the body has no solid cell; give it a material, or make the void smaller");
 
+  if (definition.cuts()) model.cut = count_cut_cells(model);
   std::vector<material::Springs> springs;
   collectively(communicator, [&] {
     at_place(definition.places.find("lattice.calibration"),

@@ -7,47 +7,28 @@
 #include <cmath>
 
 #include "model/check.h"
+#include "model/cut.h"
 #include "model/grains.h"
 
 namespace koshi::model {
 namespace {
 
-// The index of a material that check() has found to be defined.
-std::uint16_t index_of(const Definition& definition, const std::string& name) {
+// Cells are compared by their centres; borders that touch a centre belong to the region, whatever the last bit says.
+bool inside(const std::vector<Primitive>& primitives, const Vec3& x, double d) {
+  const double slack = 1e-9 * d;
+  return std::all_of(primitives.begin(), primitives.end(),
+                     [&](const Primitive& primitive) { return primitive.distance(x) <= slack; });
+}
+
+}  // namespace
+
+std::uint16_t material_index(const Definition& definition, const std::string& name) {
   if (name == "void") return 0;
   const auto& materials = definition.materials;
   const auto found = std::find_if(materials.begin(), materials.end(), [&](const auto& m) { return m.name == name; });
   assert(found != materials.end());
   return static_cast<std::uint16_t>(found - materials.begin() + 1);
 }
-
-// Cells are compared by their centres; borders that touch a centre belong to the region, whatever the last bit says.
-bool inside(const RegionDefinition& region, const Vec3& x, double d) {
-  const double slack = 1e-9 * d;
-  using Shape = RegionDefinition::Shape;
-  switch (region.shape) {
-    case Shape::box:
-      for (int a = 0; a < 3; ++a)
-        if (x[a] < region.min[a] - slack || x[a] > region.max[a] + slack) return false;
-      return true;
-    case Shape::sphere:
-      return norm(x - region.center) <= region.radius + slack;
-    case Shape::cylinder: {
-      const Vec3 axis = region.end - region.start;
-      const double length = norm(axis);
-      const double along = dot(x - region.start, axis) / length;
-      if (along < -slack || along > length + slack) return false;
-      return norm(cross(x - region.start, axis)) / length <= region.radius + slack;
-    }
-    case Shape::half_space:
-      return dot(x - region.point, region.normal) <= slack * norm(region.normal);
-    case Shape::stl:
-      break;
-  }
-  return false;
-}
-
-}  // namespace
 
 lattice::Grid make_grid(const Definition& definition) {
   const Checker check(definition);
@@ -101,18 +82,23 @@ std::function<std::uint16_t(const Int3&)> material_of_grains(const Definition& d
     if (m > definition.materials.size())
       throw InputError(definition.places.find("body"),
                        fmt::format("cell material {} is not defined; there are {}", m, definition.materials.size()));
-  const std::uint16_t background = image.empty() ? index_of(definition, definition.body.material) : 0;
+  if (definition.cuts())
+    return [body = CutBody(definition, grid)](const Int3& cell) { return body.part_of(cell).material; };
+  const std::uint16_t background = image.empty() ? material_index(definition, definition.body.material) : 0;
   std::vector<std::uint16_t> region_material;
-  for (const RegionDefinition& region : definition.regions)
-    region_material.push_back(index_of(definition, region.material));
+  std::vector<std::vector<Primitive>> primitives;
+  for (const RegionDefinition& region : definition.regions) {
+    region_material.push_back(material_index(definition, region.material));
+    primitives.push_back(primitives_of(region));
+  }
 
-  return [&definition, &image, grid, n, background, region_material](const Int3& cell) {
+  return [&definition, &image, grid, n, background, region_material, primitives](const Int3& cell) {
     const auto at = static_cast<std::size_t>(cell[0] + n[0] * (cell[1] + n[1] * cell[2]));
     const Vec3 centre = grid.position(cell) + Vec3{0.5 * grid.d, 0.5 * grid.d, 0.5 * grid.d};
     for (std::size_t r = definition.regions.size(); r-- > 0;) {
       const RegionDefinition& region = definition.regions[r];
       const bool in = region.shape == RegionDefinition::Shape::stl ? at < region.inside.size() && region.inside[at] != 0
-                                                                   : inside(region, centre, grid.d);
+                                                                   : inside(primitives[r], centre, grid.d);
       if (in) return region_material[r];
     }
     return image.empty() ? background : image[at];
@@ -124,9 +110,15 @@ std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& de
   const auto& boundary = definition.body.grain_boundary;
   if (!boundary || boundary->material.empty()) return material_of;
   return [material_of, on_boundary = grain_boundaries(definition, grid),
-          between = index_of(definition, boundary->material)](const Int3& cell) {
+          between = material_index(definition, boundary->material)](const Int3& cell) {
     return on_boundary(cell) ? between : material_of(cell);
   };
+}
+
+std::function<float(const Int3&)> fraction_of_cells(const Definition& definition, const lattice::Grid& grid) {
+  if (!definition.cuts()) return nullptr;
+  return
+      [body = CutBody(definition, grid)](const Int3& cell) { return static_cast<float>(body.part_of(cell).fraction); };
 }
 
 std::function<float(const Int3&)> factor_of_cells(const Definition& definition, const lattice::Grid& grid) {

@@ -14,16 +14,22 @@ namespace koshi::model {
 /// cells than can be counted.
 lattice::Grid make_grid(const Definition& definition);
 
+/// The index of a material that check() has found to be defined; 0 for "void".
+std::uint16_t material_index(const Definition& definition, const std::string& name);
+
 /// Material index (0 = empty) of a global cell: the body's material or image, then the regions, later ones winning. A
-/// cell belongs to a region when its centre lies inside or on the border. The definition must have passed check() and
-/// outlive the function.
+/// cell belongs to a region when its centre lies inside or on the border; where regions cut cells it is what fills most
+/// of it, and slivers are empty. The definition must have passed check() and outlive the function.
 std::function<std::uint16_t(const Int3&)> material_of_grains(const Definition& definition, const lattice::Grid& grid);
 
 /// The same, and then cells along grain boundaries become what they are to be.
 std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& definition, const lattice::Grid& grid);
 
-/// Factor of each cell by its global indices; null where the definition gives none. Errors: InputError when there is
-/// not one for each cell, or one outside 0 ... 1. The definition must outlive the function.
+/// Part of each cell that is solid by its global indices; null where regions cut no cells. As above.
+std::function<float(const Int3&)> fraction_of_cells(const Definition& definition, const lattice::Grid& grid);
+
+/// Factor of each cell, without its fraction, by its global indices; null where the definition gives none. Errors:
+/// InputError when there is not one for each cell, or one outside 0 ... 1. The definition must outlive the function.
 std::function<float(const Int3&)> factor_of_cells(const Definition& definition, const lattice::Grid& grid);
 
 /// Share of its material's density that each cell has, by its global indices; those across a period are brought back.

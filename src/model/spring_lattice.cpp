@@ -74,8 +74,15 @@ SpringLattice make_cells(const lattice::Grid& grid, std::shared_ptr<const lattic
   return body;
 }
 
+void make_fractions(SpringLattice& body, const std::function<float(const Int3&)>& fraction_of) {
+  body.fraction = make_cell_field<float>(body, fraction_of);
+  body.factor = body.fraction;
+}
+
 void make_factors(SpringLattice& body, const std::function<float(const Int3&)>& factor_of) {
   body.factor = make_cell_field<float>(body, factor_of);
+  if (body.fraction.components() == 0) return;
+  for (std::size_t n = 0; n < body.factor.count(); ++n) body.factor.data()[n] *= body.fraction.data()[n];
 }
 
 std::array<double, lattice::slot_count> count_bonds(const SpringLattice& body, material::Sharing sharing) {

@@ -56,6 +56,8 @@ void append_load(json& rows, const model::LoadDefinition& load) {
 std::string place_text(const model::Selection& selection) {
   if (selection.face) return model::choice_name(*selection.face);
   if (selection.point) return fmt::format("point ({:.6g}) m", fmt::join(*selection.point, ", "));
+  if (!selection.surface.empty()) return fmt::format("surface of \"{}\"", selection.surface);
+  if (!selection.named.empty()) return fmt::format("selection \"{}\"", selection.named);
   if (!selection.box) return "whole body";
   return fmt::format("box ({:.6g}) to ({:.6g}) m", fmt::join(selection.box->first, ", "),
                      fmt::join(selection.box->second, ", "));

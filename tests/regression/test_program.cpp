@@ -271,7 +271,7 @@ TEST_F(Program, SchemaIsJson) {
   EXPECT_EQ(ended.code, 0);
   const Json schema = Json::parse(ended.output);
   for (const char* section :
-       {"lattice", "body", "material", "region", "boundary", "load", "analysis", "probe", "output"})
+       {"lattice", "body", "material", "region", "selection", "boundary", "load", "analysis", "probe", "output"})
     EXPECT_TRUE(schema.at("properties").contains(section)) << section;
 }
 

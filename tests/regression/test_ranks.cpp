@@ -125,5 +125,30 @@ TEST(Ranks, SameBitsOnAnyNumber) {
   }
 }
 
+// Cut cells, loads and supports on surfaces: every rank computes those that touch its nodes by itself.
+TEST(Ranks, SameBitsWhereSurfacesCutCells) {
+  const test::TemporaryDirectory directory;
+  const auto run_on = [&](int ranks) {
+    const fs::path out = directory / std::to_string(ranks);
+    const test::Ended ended =
+        test::koshi(directory.path(), "run " KOSHI_SOURCE_DIR "/tests/regression/curved.toml --quiet --out " +
+                                          out.native() + " --ranks " + std::to_string(ranks));
+    EXPECT_EQ(ended.code, 0) << ended.error;
+    return out;
+  };
+  const fs::path one = run_on(1);
+  const std::string history = test::read_file(one / "history.csv");
+  EXPECT_GT(std::ranges::count(history, '\n'), 25);
+  EXPECT_GT(summary_without_timings(one).at("energy").at("elastic").get<double>(), 0);
+  for (const int ranks : {2, 4}) {
+    SCOPED_TRACE(std::to_string(ranks) + " ranks");
+    const fs::path out = run_on(ranks);
+    EXPECT_TRUE(test::read_file(out / "history.csv") == history);
+    EXPECT_EQ(summary_without_timings(out), summary_without_timings(one));
+    EXPECT_TRUE(test::read_file(out / "checkpoint.h5") == test::read_file(one / "checkpoint.h5"));
+    expect_read_alike(io::list_samples(out).back().path, io::list_samples(one).back().path);
+  }
+}
+
 }  // namespace
 }  // namespace koshi

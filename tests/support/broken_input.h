@@ -46,6 +46,9 @@ name = "tip"
 point = [0, 0, 0]
 [output]
 every = "1 s"
+[[selection]]
+name = "spot"
+face = "y-min"
 )";
 
 /// The right case with one text replaced, and the whole message that must follow "case.toml:".

@@ -102,7 +102,7 @@ density = "2000 kg/m^3"
        R"(title = "base"
 lattice = 3
 #)",
-       R"(4:1: error: unknown key "cell" in the input; known: "title", "lattice", "body", "material", "region", "crack", "boundary", "load", "analysis", "probe", "output")"},
+       R"(4:1: error: unknown key "cell" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "analysis", "probe", "output")"},
       {"[analysis]", "[[analysis]]", "29:1: error: [analysis] is a list of 1; expected a table"},
       {"[[region]]", "[region]", "12:1: error: region is a table; expected tables, each under [[region]]"},
       {R"(title = "base")", R"(title = "base"
@@ -143,12 +143,12 @@ scale = "1 mm")",
        "", R"(32:1: error: [[probe]] has no "name"; expected a text in quotes)"},
       {R"(title = "base")", R"(title = "base"
 [a.b.c])",
-       R"(2:2: error: unknown key "a" in the input; known: "title", "lattice", "body", "material", "region", "crack", "boundary", "load", "analysis", "probe", "output")"},
+       R"(2:2: error: unknown key "a" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "analysis", "probe", "output")"},
       {R"(title = "base")", R"("" = 1)",
-       R"(1:1: error: unknown key "" in the input; known: "title", "lattice", "body", "material", "region", "crack", "boundary", "load", "analysis", "probe", "output")"},
+       R"(1:1: error: unknown key "" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "analysis", "probe", "output")"},
       {R"(name = "top")", R"(name = "top"
-selection = "all")",
-       R"(23:1: error: unknown key "selection" in [[boundary]]; known: "name", "face", "box", "point", "fix", "displacement", "velocity", "twist", "center", "ramp", "history")"},
+nodes = "all")",
+       R"(23:1: error: unknown key "nodes" in [[boundary]]; known: "name", "face", "box", "point", "surface", "selection", "fix", "displacement", "velocity", "twist", "center", "ramp", "history")"},
       {"[output]", R"([output]
 format = "vtk")",
        R"(36:1: error: unknown key "format" in [output]; known: "fields", "every", "every_events", "history_every", "checkpoint_every", "checkpoint_every_wall", "report", "crack_surface")"},
@@ -157,7 +157,7 @@ format = "vtk")",
        R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"]
 position = [0, 0, 0]
 )",
-       R"(7:1: error: unknown key "position" in [body]; known: "origin", "size", "material", "periodic", "image", "materials", "scan", "factor", "strength", "grain_boundary")"},
+       R"(7:1: error: unknown key "position" in [body]; known: "origin", "size", "material", "periodic", "surface", "image", "materials", "scan", "factor", "strength", "grain_boundary")"},
   };
   ASSERT_EQ(inputs.size(), 26u);
   expect_messages(inputs);

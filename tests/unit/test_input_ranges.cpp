@@ -89,6 +89,16 @@ const std::map<std::string, std::string>& places() {
       {"region.point", "region.3.point.0"},
       {"region.normal", "region.3.normal.2"},
       {"region.scale", "region.4.scale"},
+      {"selection.box.min", "selection.all.box"},
+      {"selection.box.max", "selection.all.box"},
+      {"selection.point", "selection.corner.point"},
+      {"selection.sphere.center", "selection.ball.sphere.center"},
+      {"selection.sphere.radius", "selection.ball.sphere.radius"},
+      {"selection.cylinder.start", "selection.bar.cylinder.start.0"},
+      {"selection.cylinder.end", "selection.bar.cylinder.end.0"},
+      {"selection.cylinder.radius", "selection.bar.cylinder.radius"},
+      {"selection.half_space.point", "selection.half.half_space.point"},
+      {"selection.half_space.normal", "selection.half.half_space.normal.2"},
       {"boundary.box.min", "boundary.turned.box.min.0"},
       {"boundary.box.max", "boundary.turned.box.max.2"},
       {"boundary.point", "boundary.held.point"},
@@ -219,8 +229,8 @@ TEST(Ranges, EveryNumberIsKeptToThem) {
     EXPECT_THAT(message_of(name, "\"1e400\""), HasSubstr("is out of the range of numbers")) << name;
     ++count;
   }
-  EXPECT_EQ(count, 89);
-  EXPECT_EQ(places().size(), 89u);
+  EXPECT_EQ(count, 99);
+  EXPECT_EQ(places().size(), 99u);
 }
 
 // The unit of a range is the one in which the reader gives its values.
@@ -245,8 +255,10 @@ TEST(Ranges, HaveTheUnitOfTheirKey) {
                 check_units<BoundaryDefinition>() + check_units<LoadDefinition>() + check_units<AnalysisDefinition>() +
                 check_units<DampingDefinition>() + check_units<ProbeDefinition>() + check_units<OutputDefinition>() +
                 check_units<material::Fracture>() + check_units<material::Scatter>() +
-                check_units<GrainBoundaryDefinition>() + check_units<CrackDefinition>() + check_units<StopDefinition>(),
-            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 2 + 4 + 4 + 4 + 1 + 6 + 2);
+                check_units<GrainBoundaryDefinition>() + check_units<CrackDefinition>() +
+                check_units<StopDefinition>() + check_units<SelectionDefinition>() + check_units<SphereShape>() +
+                check_units<CylinderShape>() + check_units<HalfSpaceShape>(),
+            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 2 + 4 + 4 + 4 + 1 + 6 + 2 + 2 + 2 + 3 + 2);
 }
 
 // A fracture with nothing wrong but what it is given.

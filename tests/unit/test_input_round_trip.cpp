@@ -71,6 +71,15 @@ TEST(ResolvedInput, EveryKeySurvives) {
                                          "region.3.normal=[1, 0, 0]",
                                          "region.4.file=/b.stl",
                                          "region.4.scale=2",
+                                         "region.4.name=part",
+                                         "selection.ball.sphere.radius=2",
+                                         "selection.bar.cylinder.radius=2",
+                                         "selection.half.half_space.normal=[1, 0, 0]",
+                                         "selection.end.face=x-min",
+                                         "selection.any.union=[\"all\"]",
+                                         "selection.both.intersection=[\"all\"]",
+                                         "selection.rest.difference=[\"bar\", \"all\"]",
+                                         "load.ice.selection=ball",
                                          "boundary.held.name=x",
                                          "boundary.held.face=x-max",
                                          "boundary.held.fix=[\"x\"]",
@@ -148,6 +157,7 @@ TEST(ResolvedInput, EveryKeySurvives) {
                                     std::string("output.crack_surface=false"),
                                     std::string("output.fields=['damage']")})
     expect_survival(right_cases()[6], change);
+  expect_survival(right_cases()[0], "body.surface=cut");
 }
 
 TEST(ResolvedInput, WritesDefaultsInSI) {

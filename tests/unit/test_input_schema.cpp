@@ -75,6 +75,7 @@ TEST(Schema, ListsTheKeysOfTheReader) {
       {"stiffness_scatter", "material.rock.stiffness_scatter."},
       {"grain_boundary", "body.grain_boundary."},
       {"region", "region.0."},
+      {"selection", "selection.spot."},
       {"boundary", "boundary.top."},
       {"load", "load.push."},
       {"analysis", "analysis."},
@@ -90,7 +91,7 @@ TEST(Schema, ListsTheKeysOfTheReader) {
     EXPECT_EQ(schema.at(table), known_keys(path)) << table;
     count += schema.at(table).size();
   }
-  EXPECT_EQ(count, 11u + 7 + 10 + 12 + 5 + 8 + 5 + 5 + 3 + 12 + 11 + 10 + 13 + 4 + 8 + 3 + 7 + 8);
+  EXPECT_EQ(count, 12u + 7 + 11 + 12 + 5 + 8 + 5 + 5 + 3 + 13 + 11 + 13 + 12 + 13 + 4 + 10 + 3 + 7 + 8);
 }
 
 TEST(Schema, TellsTypeDefaultAndMeaning) {
@@ -134,7 +135,7 @@ TEST(Schema, TellsTypeDefaultAndMeaning) {
       ++described;
     }
   }
-  EXPECT_EQ(described, 7 + 10 + 12 + 8 + 11 + 10 + 13 + 7 + 8);
+  EXPECT_EQ(described, 7 + 11 + 12 + 9 + 11 + 13 + 12 + 13 + 9 + 8);
 }
 
 // The example of each key is what its reader takes, and sets something.
@@ -160,8 +161,10 @@ TEST(Schema, ExamplesAreRight) {
       read_examples<BoundaryDefinition>() + read_examples<LoadDefinition>() + read_examples<AnalysisDefinition>() +
       read_examples<DampingDefinition>() + read_examples<ProbeDefinition>() + read_examples<OutputDefinition>() +
       read_examples<material::Fracture>() + read_examples<material::Scatter>() +
-      read_examples<GrainBoundaryDefinition>() + read_examples<CrackDefinition>() + read_examples<StopDefinition>();
-  EXPECT_EQ(count, 1 + 3 + 10 + 10 + 5 + 6 + 11 + 10 + 8 + 9 + 1 + 5 + 5 + 4 + 3 + 7 + 3);
+      read_examples<GrainBoundaryDefinition>() + read_examples<CrackDefinition>() + read_examples<StopDefinition>() +
+      read_examples<SelectionDefinition>() + read_examples<SphereShape>() + read_examples<CylinderShape>() +
+      read_examples<HalfSpaceShape>();
+  EXPECT_EQ(count, 1 + 3 + 10 + 10 + 5 + 7 + 13 + 12 + 8 + 9 + 1 + 7 + 5 + 4 + 3 + 7 + 3 + 10 + 2 + 3 + 2);
 }
 
 // A key without a list of words, a switch or a nested table shows an example.
@@ -178,7 +181,7 @@ TEST(Schema, EveryValueHasAnExample) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 3 + 10 + 5 + 11 + 7 + 10 + 9 + 10 + 3 + 6);
+  EXPECT_EQ(count, 3 + 10 + 5 + 11 + 8 + 12 + 11 + 10 + 5 + 6 + 10);
 }
 
 // Of some keys exactly one must be given: the schema says so, and the check refuses two of them, and none.
@@ -193,14 +196,16 @@ TEST(Schema, GroupsAreThoseOfTheCheck) {
     return result;
   };
   using Groups = std::vector<std::vector<std::string>>;
-  EXPECT_EQ(groups("boundary"), (Groups{{"face", "box", "point"}}));
-  EXPECT_EQ(groups("probe"), (Groups{{"face", "box", "point"}}));
-  EXPECT_EQ(groups("load"),
-            (Groups{{"face", "box", "point", "acceleration"}, {"force", "traction", "pressure", "acceleration"}}));
+  EXPECT_EQ(groups("boundary"), (Groups{{"face", "box", "point", "surface", "selection"}}));
+  EXPECT_EQ(groups("probe"), (Groups{{"face", "box", "point", "surface", "selection"}}));
+  EXPECT_EQ(groups("load"), (Groups{{"face", "box", "point", "surface", "selection", "acceleration"},
+                                    {"force", "traction", "pressure", "acceleration"}}));
 
   const std::map<std::string, std::string> values{{"face", "x-max"},
                                                   {"box", "{min = [0, 0, 0], max = [1, 1, 1]}"},
                                                   {"point", "[0, 0, 0]"},
+                                                  {"surface", "wall"},
+                                                  {"selection", "spot"},
                                                   {"force", "[1, 0, 0]"},
                                                   {"traction", "[1, 0, 0]"},
                                                   {"pressure", "1"},
@@ -216,7 +221,7 @@ TEST(Schema, GroupsAreThoseOfTheCheck) {
           EXPECT_NE(tests::message_of(tests::right_case, overrides), "") << overrides[0] << ' ' << overrides[1];
           ++count;
         }
-  EXPECT_EQ(count, 6 + 12 + 12 + 6);
+  EXPECT_EQ(count, 20 + 30 + 12 + 20);
 }
 
 }  // namespace

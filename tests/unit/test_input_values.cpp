@@ -147,13 +147,13 @@ TEST(BrokenInput, Conditions) {
        "22:8: error: the name of a boundary holds a control character; names are of one line"},
       {R"(face = "z-max"
 )",
-       "", R"(21:1: error: boundary "top" selects nothing; give one of face, box, point)"},
+       "", R"(21:1: error: boundary "top" selects nothing; give one of face, box, point, surface, selection)"},
       {R"(face = "z-max"
 )",
        R"(face = "z-max"
 point = [0, 0, 0]
 )",
-       R"(24:9: error: boundary "top" has both face and point; give one of face, box, point)"},
+       R"(24:9: error: boundary "top" has both face and point; give one of face, box, point, surface, selection)"},
       {R"(face = "z-max"
 )",
        "box = { min = [0, 0, 1], max = [1, 1, 0] }\n",
@@ -206,7 +206,7 @@ pressure = "1 MPa")",
        R"(27:8: error: load "push" is an acceleration of the whole body; leave face out)"},
       {R"(face = "x-max"
 )",
-       "", R"(25:1: error: load "push" selects nothing; give one of face, box, point)"},
+       "", R"(25:1: error: load "push" selects nothing; give one of face, box, point, surface, selection)"},
       {R"(face = "x-max"
 force = ["1 N", 0, 0])",
        R"(point = [0, 0, 0]
@@ -242,7 +242,8 @@ safety = 1.5)",
        "31:38: error: rate is -1 1/s; it must lie between 0 1/s and 1e+20 1/s"},
       {R"(name = "tip"
 point = [0, 0, 0])",
-       R"(name = "tip")", R"(32:1: error: probe "tip" selects nothing; give one of face, box, point)"},
+       R"(name = "tip")",
+       R"(32:1: error: probe "tip" selects nothing; give one of face, box, point, surface, selection)"},
       {R"(name = "tip"
 )",
        R"(name = "tip"

@@ -110,6 +110,10 @@ const std::vector<Key<model::GrainBoundaryDefinition>>& keys_of(Tag<model::Grain
 const std::vector<Key<model::RegionDefinition>>& keys_of(Tag<model::RegionDefinition>);
 const std::vector<Key<model::CrackDefinition>>& keys_of(Tag<model::CrackDefinition>);
 const std::vector<Key<model::StopDefinition>>& keys_of(Tag<model::StopDefinition>);
+const std::vector<Key<model::SelectionDefinition>>& keys_of(Tag<model::SelectionDefinition>);
+const std::vector<Key<model::SphereShape>>& keys_of(Tag<model::SphereShape>);
+const std::vector<Key<model::CylinderShape>>& keys_of(Tag<model::CylinderShape>);
+const std::vector<Key<model::HalfSpaceShape>>& keys_of(Tag<model::HalfSpaceShape>);
 const std::vector<Key<model::BoundaryDefinition>>& keys_of(Tag<model::BoundaryDefinition>);
 const std::vector<Key<model::LoadDefinition>>& keys_of(Tag<model::LoadDefinition>);
 const std::vector<Key<model::AnalysisDefinition>>& keys_of(Tag<model::AnalysisDefinition>);

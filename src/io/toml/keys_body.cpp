@@ -20,14 +20,15 @@ const std::vector<Key<Definition>>& keys_of(Tag<Definition>) {
       key<D>("region", &D::regions, "Shapes, [[region]], that give cells another material or none; later ones win."),
       key<D>("crack", &D::pre_cracks,
              "Cracks, [[crack]], that a body of materials with a fracture has from the start."),
-      key<D>("boundary", &D::boundaries,
-             "Prescribed motions, [[boundary]], each of the nodes of one face, box or point."),
+      key<D>("selection", &D::selections,
+             "Selections, [[selection]], by name: a shape, a surface, or what others have together."),
+      key<D>("boundary", &D::boundaries, "Prescribed motions, [[boundary]], each of the nodes of one selection."),
       key<D>("load", &D::loads,
-             "Loads, [[load]]: one of force, traction, pressure on the nodes of one face, box or point, or an "
+             "Loads, [[load]]: one of force, traction, pressure on one selection, or an "
              "acceleration of "
              "the whole body."),
       key<D>("analysis", &D::analysis, "What is computed."),
-      key<D>("probe", &D::probes, "Values reported by name, [[probe]], each from the nodes of one face, box or point."),
+      key<D>("probe", &D::probes, "Values reported by name, [[probe]], each from the nodes of one selection."),
       key<D>("output", &D::output, "Fields, samples and checkpoints."),
   };
   return keys;
@@ -81,6 +82,10 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
           .only_for("a body without an image, or with scan.grey", {"image", "scan"},
                     [=](const D& body) { return plain(body) || dense(body); }),
       key<D>("periodic", &D::periodic, "Opposite faces across x, y, z are joined.", {.example = R"(["x", "y"])"}),
+      key<D>(
+          "surface", &D::surface,
+          "Cells that a region's surface passes through: whole or empty by their centre (stairs), or with the part of "
+          "their stiffness and mass that is inside (cut)."),
       key<D>(
           "image", &D::image,
           "File of cell values, one a cell (.npy, .vti, .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif, .tiff, .raw); "
@@ -170,6 +175,7 @@ const std::vector<Key<RegionDefinition>>& keys_of(Tag<RegionDefinition>) {
     return About{.dimension = Dimension::length, .required = true, .range = ranges::position, .example = example};
   };
   static const std::vector<Key<D>> keys{
+      key<D>("name", &D::name, "Name by which selections find its surface.", {.example = R"("bore")"}),
       key<D>("shape", &D::shape, "Cells whose centre lies inside the shape belong to the region.", {.required = true}),
       key<D>("material", &D::material, "A material's name, or \"void\".", {.required = true, .example = R"("clay")"}),
       of({Shape::box}, key<D>("min", &D::min, "Lower corner.", at(R"([0, 0, 0])"))),

@@ -1,4 +1,4 @@
-// Keys of the tables that apply to a selection of nodes: [[boundary]], [[load]] and [[probe]].
+// Keys of selections, and of the tables that apply to one: [[selection]], [[boundary]], [[load]] and [[probe]].
 #include <algorithm>
 
 #include "io/toml/key.h"
@@ -8,6 +8,13 @@ namespace koshi::io {
 using namespace model;
 
 namespace {
+
+About corner_key(const std::string& example) {
+  return {.dimension = Dimension::length, .required = true, .range = ranges::position, .example = example};
+}
+About radius_key() {
+  return {.dimension = Dimension::length, .required = true, .range = ranges::size, .example = R"("2 mm")"};
+}
 
 // The keys of a selection, and the name before them.
 template <class D>
@@ -28,13 +35,50 @@ std::vector<Key<D>> selection_keys(const std::string& name_description, bool nam
               .range = ranges::position,
               .example = R"(["0.8 cm", "7.8 cm", "1.0 cm"])",
               .one_of = {"where"}}),
+      key<D>(
+          "surface", [](auto& s) -> auto& { return s.selection.surface; },
+          "Name of a region: selects what of its surface is surface of the body, and the corners of the cells there.",
+          {.example = R"("bore")", .one_of = {"where"}}),
   };
+}
+
+// The same, and a named selection.
+template <class D>
+std::vector<Key<D>> place_keys(const std::string& name_description, bool name_required) {
+  std::vector<Key<D>> keys = selection_keys<D>(name_description, name_required);
+  keys.push_back(key<D>("selection", [](auto& s) -> auto& { return s.selection.named; }, "Name of a [[selection]].",
+                        {.example = R"("upper wall")", .one_of = {"where"}}));
+  return keys;
 }
 
 template <class D>
 std::vector<Key<D>> joined(std::vector<Key<D>> first, const std::vector<Key<D>>& second) {
   first.insert(first.end(), second.begin(), second.end());
   return first;
+}
+
+std::vector<Key<SelectionDefinition>> combination_keys() {
+  using D = SelectionDefinition;
+  return {
+      key<D>("sphere", [](auto& s) -> auto& { return s.selection.sphere; }, "Selects what lies in a ball.",
+             {.title = "sphere", .example = R"({center = [0, 0, 0], radius = "1 cm"})", .one_of = {"where"}}),
+      key<D>("cylinder", [](auto& s) -> auto& { return s.selection.cylinder; }, "Selects what lies in a round bar.",
+             {.title = "cylinder",
+              .example = R"({start = [0, 0, 0], end = [0, 0, "1 cm"], radius = "1 cm"})",
+              .one_of = {"where"}}),
+      key<D>("half_space", [](auto& s) -> auto& { return s.selection.half_space; },
+             "Selects what lies on one side of a plane.",
+             {.title = "half_space", .example = R"({point = [0, 0, 0], normal = [0, 0, 1]})", .one_of = {"where"}}),
+      key<D>("union", [](auto& s) -> auto& { return s.selection.any_of; },
+             "Names of selections before this one: selects what is in any of them.",
+             {.example = R"(["wall", "cap"])", .one_of = {"where"}}),
+      key<D>("intersection", [](auto& s) -> auto& { return s.selection.all_of; },
+             "Names of selections before this one: selects what is in all of them.",
+             {.example = R"(["wall", "upper half"])", .one_of = {"where"}}),
+      key<D>("difference", [](auto& s) -> auto& { return s.selection.first_of; },
+             "Names of selections before this one: selects what is in the first and in none of the others.",
+             {.example = R"(["wall", "window"])", .one_of = {"where"}}),
+  };
 }
 
 bool has_twist(const BoundaryDefinition& boundary) {
@@ -49,12 +93,43 @@ bool moves(const BoundaryDefinition& boundary) {
 
 }  // namespace
 
+const std::vector<Key<SelectionDefinition>>& keys_of(Tag<SelectionDefinition>) {
+  static const std::vector<Key<SelectionDefinition>> keys =
+      joined(selection_keys<SelectionDefinition>("Name by which others refer to it.", true), combination_keys());
+  return keys;
+}
+
+const std::vector<Key<SphereShape>>& keys_of(Tag<SphereShape>) {
+  using D = SphereShape;
+  static const std::vector<Key<D>> keys{key<D>("center", &D::center, "Centre.", corner_key(R"([0, 0, "5 mm"])")),
+                                        key<D>("radius", &D::radius, "Radius.", radius_key())};
+  return keys;
+}
+
+const std::vector<Key<CylinderShape>>& keys_of(Tag<CylinderShape>) {
+  using D = CylinderShape;
+  static const std::vector<Key<D>> keys{
+      key<D>("start", &D::start, "One end of the axis.", corner_key(R"([0, 0, 0])")),
+      key<D>("end", &D::end, "Other end of the axis.", corner_key(R"([0, 0, "20 mm"])")),
+      key<D>("radius", &D::radius, "Radius.", radius_key())};
+  return keys;
+}
+
+const std::vector<Key<HalfSpaceShape>>& keys_of(Tag<HalfSpaceShape>) {
+  using D = HalfSpaceShape;
+  static const std::vector<Key<D>> keys{
+      key<D>("point", &D::point, "A point of the border plane.", corner_key(R"([0, 0, "5 mm"])")),
+      key<D>("normal", &D::normal, "Direction that points out of the half-space.",
+             {.required = true, .range = ranges::direction, .example = "[0, 0, 1]"})};
+  return keys;
+}
+
 const std::vector<Key<BoundaryDefinition>>& keys_of(Tag<BoundaryDefinition>) {
   using D = BoundaryDefinition;
   const std::string motion = "a boundary with displacement, velocity or twist";
   const std::vector<std::string> motions{"displacement", "velocity", "twist"};
   static const std::vector<Key<D>> keys = joined(
-      selection_keys<D>("Name for messages and --set; unset: \"boundary 1\" and so on.", false),
+      place_keys<D>("Name for messages and --set; unset: \"boundary 1\" and so on.", false),
       {
           key<D>("fix", &D::fix, "Components held at zero; rotations count only with rotational kinematics.",
                  {.example = R"(["x", "y", "z", "rx", "ry", "rz"])"}),
@@ -89,7 +164,7 @@ const std::vector<Key<BoundaryDefinition>>& keys_of(Tag<BoundaryDefinition>) {
 const std::vector<Key<LoadDefinition>>& keys_of(Tag<LoadDefinition>) {
   using D = LoadDefinition;
   static const std::vector<Key<D>> keys =
-      joined(selection_keys<D>("Name for messages and --set; unset: \"load 1\" and so on.", false),
+      joined(place_keys<D>("Name for messages and --set; unset: \"load 1\" and so on.", false),
              {
                  key<D>("force", &D::force, "Total force on the selection.",
                         {.dimension = Dimension::force,
@@ -101,7 +176,7 @@ const std::vector<Key<LoadDefinition>>& keys_of(Tag<LoadDefinition>) {
                          .range = ranges::pressure,
                          .example = R"([0, 0, "-2 MPa"])",
                          .one_of = {"what"}}),
-                 key<D>("pressure", &D::pressure, "Pressure against the outward normal of the face.",
+                 key<D>("pressure", &D::pressure, "Pressure against the outward normal of the face or surface.",
                         {.dimension = Dimension::pressure,
                          .range = ranges::pressure,
                          .example = R"("2 MPa")",
@@ -124,7 +199,7 @@ const std::vector<Key<LoadDefinition>>& keys_of(Tag<LoadDefinition>) {
 const std::vector<Key<ProbeDefinition>>& keys_of(Tag<ProbeDefinition>) {
   using D = ProbeDefinition;
   static const std::vector<Key<D>> keys = joined(
-      selection_keys<D>("Name in summary.json and history.csv.", true),
+      place_keys<D>("Name in summary.json and history.csv.", true),
       {
           key<D>("quantity", &D::quantity, "What is reported."),
           key<D>("reduce", &D::reduce,

@@ -37,6 +37,7 @@ std::string resolved_toml(const model::Definition& definition) {
     write_table(fmt::format("[material.{}]", toml_key(material.name)), material, out);
   for (const auto& region : resolved.regions) write_table("[[region]]", region, out);
   for (const auto& crack : resolved.pre_cracks) write_table("[[crack]]", crack, out);
+  for (const auto& selection : resolved.selections) write_table("[[selection]]", selection, out);
   for (const auto& boundary : resolved.boundaries) write_table("[[boundary]]", boundary, out);
   for (const auto& load : resolved.loads) write_table("[[load]]", load, out);
   write_table("[analysis]", resolved.analysis, out);

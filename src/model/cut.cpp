@@ -1,0 +1,205 @@
+#include "model/cut.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "model/plane_cut.h"
+#include "model/regions.h"
+
+namespace koshi::model {
+namespace {
+
+// Lengths below this part of a cell are rounding.
+constexpr double slack = 1e-9;
+// Cubes where two surfaces meet are halved so often, then taken whole by their centre: 1/16 of a cell.
+constexpr int most_halvings = 4;
+
+Vec3 corner(const Vec3& centre, double edge, int c) {
+  const double h = 0.5 * edge;
+  return centre + Vec3{c & 1 ? h : -h, c & 2 ? h : -h, c & 4 ? h : -h};
+}
+
+enum class Side { in, out, through };
+
+// Where a cube lies. Primitives are convex: a cube whose corners are inside is inside.
+Side side_of(const Primitive& p, const Vec3& centre, double edge) {
+  const double at = p.distance(centre), least = slack * edge;
+  // Half a diagonal away nothing of the cube is reached.
+  if (at > 0.867 * edge) return Side::out;
+  if (at < -0.867 * edge) return Side::in;
+  double low = p.distance(corner(centre, edge, 0)), high = low;
+  for (int c = 1; c < 8; ++c) {
+    const double d = p.distance(corner(centre, edge, c));
+    low = std::min(low, d);
+    high = std::max(high, d);
+  }
+  if (high <= least) return Side::in;
+  if (p.kind == Primitive::Kind::plane && low >= -least) return Side::out;
+  return Side::through;
+}
+
+// Whether a surface is so flat on the cube that part_inside() is good to about a millionth.
+bool flat(const Primitive& p, double edge) { return p.kind == Primitive::Kind::plane || edge <= p.radius / 16; }
+
+// Part of a cube inside a surface that is nearly flat: below the plane that fits the distances at the corners, moved to
+// the mean distance by Simpson's rule, so that the curvature counts.
+double part_inside(const Primitive& p, const Vec3& centre, double edge) {
+  Vec3 slope{};
+  double mean = 0;
+  for (int c = 0; c < 8; ++c) {
+    const double d = p.distance(corner(centre, edge, c));
+    mean += d / 8;
+    for (int a = 0; a < 3; ++a) slope[static_cast<std::size_t>(a)] += (c >> a & 1 ? d : -d) / 4;
+  }
+  if (slope == Vec3{}) return p.distance(centre) <= 0 ? 1 : 0;
+  return part_below(slope, -(2 * p.distance(centre) + mean) / 3);
+}
+
+}  // namespace
+
+CutBody::CutBody(const Definition& definition, const lattice::Grid& grid) : definition_(definition), grid_(grid) {
+  if (definition.body.cells.empty()) material_ = material_index(definition, definition.body.material);
+  for (const RegionDefinition& region : definition.regions)
+    layers_.push_back({material_index(definition, region.material), primitives_of(region), &region});
+}
+
+std::size_t CutBody::index(const Int3& cell) const {
+  return static_cast<std::size_t>(cell[0] + grid_.cells[0] * (cell[1] + grid_.cells[1] * cell[2]));
+}
+
+std::uint16_t CutBody::background(const Int3& cell) const {
+  return definition_.body.cells.empty() ? material_ : definition_.body.cells[index(cell)];
+}
+
+bool CutBody::inside(const RegionDefinition& region, const Int3& cell) const {
+  const std::size_t at = index(cell);
+  return at < region.inside.size() && region.inside[at] != 0;
+}
+
+const CutCell* CutBody::cut_cell(const RegionDefinition& region, const Int3& cell) const {
+  const auto at = static_cast<std::int64_t>(index(cell));
+  const auto found = std::lower_bound(region.cut_cells.begin(), region.cut_cells.end(), at,
+                                      [](const CutCell& cut, std::int64_t wanted) { return cut.cell < wanted; });
+  return found != region.cut_cells.end() && found->cell == at ? &*found : nullptr;
+}
+
+Primitive CutBody::plane_of(const CutCell& cut, const Int3& cell) const {
+  const Vec3 centre = grid_.position(cell) + Vec3{0.5 * grid_.d, 0.5 * grid_.d, 0.5 * grid_.d};
+  return {Primitive::Kind::plane, centre + (cut.offset * grid_.d) * cut.normal, cut.normal, 0};
+}
+
+std::vector<CutBody::Passing> CutBody::passing(const Cube& cube, const Int3& cell) const {
+  // From the last layer down to the first that holds the whole cell: what lies below is hidden.
+  std::vector<Passing> found;
+  for (std::size_t l = layers_.size(); l-- > 0;) {
+    const Layer& layer = layers_[l];
+    Passing here{layer.material, {}};
+    bool missed = false;
+    if (layer.region->shape == RegionDefinition::Shape::stl) {
+      if (const CutCell* cut = cut_cell(*layer.region, cell))
+        here.surfaces.push_back(plane_of(*cut, cell));
+      else
+        missed = !inside(*layer.region, cell);
+    } else {
+      for (const Primitive& p : layer.primitives) {
+        const Side side = side_of(p, cube.centre, cube.edge);
+        missed = missed || side == Side::out;
+        if (side == Side::through) here.surfaces.push_back(p);
+      }
+    }
+    if (missed) continue;
+    found.push_back(std::move(here));
+    if (found.back().surfaces.empty()) break;
+  }
+  return found;
+}
+
+std::vector<CutBody::Passing> CutBody::narrowed(const std::vector<Passing>& layers, const Cube& cube) {
+  std::vector<Passing> found;
+  for (const Passing& layer : layers) {
+    Passing here{layer.material, {}};
+    bool missed = false;
+    for (const Primitive& p : layer.surfaces) {
+      const Side side = side_of(p, cube.centre, cube.edge);
+      missed = missed || side == Side::out;
+      if (side == Side::through) here.surfaces.push_back(p);
+    }
+    if (missed) continue;
+    found.push_back(std::move(here));
+    if (found.back().surfaces.empty()) break;
+  }
+  return found;
+}
+
+void CutBody::add(const Cube& cube, int depth, const std::vector<Passing>& layers, std::uint16_t background,
+                  std::vector<double>& volume) const {
+  const double size = cube.edge * cube.edge * cube.edge / (grid_.d * grid_.d * grid_.d);
+  std::size_t surfaces = 0;
+  for (const Passing& layer : layers) surfaces += layer.surfaces.size();
+  if (surfaces == 0) {
+    volume[layers.empty() ? background : layers.front().material] += size;
+    return;
+  }
+  // One surface that is nearly flat: only the first layer can have it, and the one below holds the whole cube.
+  const Primitive* only = surfaces == 1 ? &layers.front().surfaces.front() : nullptr;
+  if (only != nullptr && (flat(*only, cube.edge) || depth == most_halvings)) {
+    const double part = part_inside(*only, cube.centre, cube.edge);
+    volume[layers.front().material] += part * size;
+    volume[layers.size() > 1 ? layers[1].material : background] += (1 - part) * size;
+    return;
+  }
+  if (depth == most_halvings) {
+    const auto holds = [&](const Passing& layer) {
+      return std::all_of(layer.surfaces.begin(), layer.surfaces.end(),
+                         [&](const Primitive& p) { return p.distance(cube.centre) <= 0; });
+    };
+    const auto layer = std::find_if(layers.begin(), layers.end(), holds);
+    volume[layer == layers.end() ? background : layer->material] += size;
+    return;
+  }
+  for (int c = 0; c < 8; ++c) {
+    const Cube part{corner(cube.centre, 0.5 * cube.edge, c), 0.5 * cube.edge};
+    add(part, depth + 1, narrowed(layers, part), background, volume);
+  }
+}
+
+CellPart CutBody::part_of(const Int3& cell) const {
+  const Cube cube{grid_.position(cell) + Vec3{0.5 * grid_.d, 0.5 * grid_.d, 0.5 * grid_.d}, grid_.d};
+  const std::vector<Passing> layers = passing(cube, cell);
+  const bool whole = layers.empty() || layers.front().surfaces.empty();
+  if (whole) {
+    const std::uint16_t material = layers.empty() ? background(cell) : layers.front().material;
+    return {material, material == 0 ? 0.0 : 1.0, 0};
+  }
+  std::vector<double> volume(definition_.materials.size() + 1);
+  add(cube, 0, layers, background(cell), volume);
+  double solid = 0;
+  std::uint16_t most = 1;
+  for (std::size_t m = 1; m < volume.size(); ++m) {
+    solid += volume[m];
+    if (volume[m] > volume[most]) most = static_cast<std::uint16_t>(m);
+  }
+  if (solid < CellPart::least) return {0, 0, solid};
+  return {most, solid > 1 - slack ? 1 : solid, 0};
+}
+
+std::uint16_t CutBody::material_at(const Vec3& x, const Int3& cell, int forced, bool holds) const {
+  const double least = slack * grid_.d;
+  for (std::size_t l = layers_.size(); l-- > 0;) {
+    const Layer& layer = layers_[l];
+    bool in = holds;
+    if (static_cast<int>(l) != forced) {
+      if (layer.region->shape == RegionDefinition::Shape::stl) {
+        const CutCell* cut = cut_cell(*layer.region, cell);
+        in = cut != nullptr ? plane_of(*cut, cell).distance(x) <= least : inside(*layer.region, cell);
+      } else {
+        in = std::all_of(layer.primitives.begin(), layer.primitives.end(),
+                         [&](const Primitive& p) { return p.distance(x) <= least; });
+      }
+    }
+    if (in) return layer.material;
+  }
+  return background(cell);
+}
+
+}  // namespace koshi::model

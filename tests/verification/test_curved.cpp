@@ -1,0 +1,63 @@
+// Lame's tube with a wall of 5 cells, its surfaces as cut cells and as stairs.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "koshi/input.h"
+#include "support/equilibrium.h"
+
+namespace koshi {
+namespace {
+
+// A quarter of a tube of inner radius 1 and outer radius 2, one cell thick, in plane strain. E = 1e3, nu = 0.3, p = 1.
+model::Definition tube(const std::string& surface, const std::string& kinematics) {
+  const auto cylinder = [](const char* name, double radius, const char* material) {
+    return fmt::format(
+        "[[region]]\nname = \"{}\"\nshape = \"cylinder\"\nstart = [0, 0, 0]\nend = [0, 0, 0.2]\nradius = {}\nmaterial "
+        "= "
+        "\"{}\"\n",
+        name, radius, material);
+  };
+  const auto wall = [](const char* face, const char* fix) {
+    return fmt::format("[[boundary]]\nface = \"{}\"\nfix = {}\n", face, fix);
+  };
+  return io::read_case_text(
+      fmt::format("[lattice]\nspacing = 0.2\nkinematics = \"{}\"\n[material.rock]\nyoungs_modulus = 1e3\n"
+                  "poissons_ratio = 0.3\ndensity = 1\n[body]\nsize = [2.2, 2.2, 0.2]\nmaterial = \"void\"\nsurface = "
+                  "\"{}\"\n",
+                  kinematics, surface) +
+          cylinder("hull", 2, "rock") + cylinder("bore", 1, "void") + wall("x-min", R"(["x", "ry", "rz"])") +
+          wall("y-min", R"(["y", "rx", "rz"])") + wall("z-min", R"(["z", "rx", "ry"])") +
+          wall("z-max", R"(["z", "rx", "ry"])") + "[[load]]\nsurface = \"bore\"\npressure = 1\n" +
+          "[[probe]]\nname = \"u\"\npoint = [1.2, 1, 0]\n[[probe]]\nname = \"s\"\npoint = [1.2, 1, 0]\nquantity = "
+          "\"stress\"\n",
+      "case.toml");
+}
+
+TEST(Curved, TubeUnderInnerPressure) {
+  // k = p a^2 / (b^2 - a^2) = 1/3, u(r) = (1 + nu) k / E ((1 - 2 nu) r + b^2 / r), hoop stress k (1 + b^2 / r^2).
+  // The work is p u(1) times the quarter's area pi/2 * 0.2; the probes lie at r = 1.562, the root of 1.2^2 + 1.
+  const double k = 1.0 / 3, r = std::sqrt(2.44), c = 1.3 * k / 1e3;
+  const double work = c * (0.4 + 4) * std::numbers::pi / 2 * 0.2;
+  const double u = c * (0.4 * r + 4 / r), hoop = k * (1 + 4 / (r * r));
+  for (const char* kinematics : {"rotational", "least-squares"}) {
+    test::Equilibrium cut(tube("cut", kinematics)), stairs(tube("stairs", kinematics));
+    const auto errors = [&](test::Equilibrium& body) {
+      const auto& displacement = body.probe(0);
+      const auto& stress = body.probe(1);
+      // Along the radius (1.2, 1)/r, and across it.
+      const double radial = (1.2 * displacement[0] + displacement[1]) / r;
+      const double around = (stress[0] + 1.44 * stress[1] - 2.4 * stress[5]) / (r * r);
+      return Vec3{2 * body.measurement().balance.elastic_energy / work - 1, radial / u - 1, around / hoop - 1};
+    };
+    const Vec3 of_cut = errors(cut), of_stairs = errors(stairs);
+    for (std::size_t e = 0; e < 3; ++e) EXPECT_LT(std::abs(of_cut[e]), 0.02) << kinematics << ' ' << e;
+    EXPECT_GT(std::abs(of_stairs[0]), 0.02) << kinematics;
+    EXPECT_GT(std::abs(of_stairs[1]), 2 * std::abs(of_cut[1])) << kinematics;
+  }
+}
+
+}  // namespace
+}  // namespace koshi
