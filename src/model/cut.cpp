@@ -55,6 +55,18 @@ double part_inside(const Primitive& p, const Vec3& centre, double edge) {
   return part_below(slope, -(2 * p.distance(centre) + mean) / 3);
 }
 
+// Whether some of a cube lies inside all primitives; adds those that pass through it.
+bool reaches(const std::vector<Primitive>& primitives, const Vec3& centre, double edge,
+             std::vector<Primitive>& through) {
+  bool out = false;
+  for (const Primitive& p : primitives) {
+    const Side side = side_of(p, centre, edge);
+    out = out || side == Side::out;
+    if (side == Side::through) through.push_back(p);
+  }
+  return !out;
+}
+
 }  // namespace
 
 CutBody::CutBody(const Definition& definition, const lattice::Grid& grid) : definition_(definition), grid_(grid) {
@@ -101,11 +113,7 @@ std::vector<CutBody::Passing> CutBody::passing(const Cube& cube, const Int3& cel
       else
         missed = !inside(*layer.region, cell);
     } else {
-      for (const Primitive& p : layer.primitives) {
-        const Side side = side_of(p, cube.centre, cube.edge);
-        missed = missed || side == Side::out;
-        if (side == Side::through) here.surfaces.push_back(p);
-      }
+      missed = !reaches(layer.primitives, cube.centre, cube.edge, here.surfaces);
     }
     if (missed) continue;
     found.push_back(std::move(here));
@@ -118,13 +126,7 @@ std::vector<CutBody::Passing> CutBody::narrowed(const std::vector<Passing>& laye
   std::vector<Passing> found;
   for (const Passing& layer : layers) {
     Passing here{layer.material, {}};
-    bool missed = false;
-    for (const Primitive& p : layer.surfaces) {
-      const Side side = side_of(p, cube.centre, cube.edge);
-      missed = missed || side == Side::out;
-      if (side == Side::through) here.surfaces.push_back(p);
-    }
-    if (missed) continue;
+    if (!reaches(layer.surfaces, cube.centre, cube.edge, here.surfaces)) continue;
     found.push_back(std::move(here));
     if (found.back().surfaces.empty()) break;
   }
