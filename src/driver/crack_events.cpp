@@ -26,14 +26,10 @@ class Sets {
   std::vector<std::size_t> parent_;
 };
 
-Int3 indices(const lattice::Grid& grid, std::int64_t number) {
-  return {number % grid.cells[0], number / grid.cells[0] % grid.cells[1], number / (grid.cells[0] * grid.cells[1])};
-}
-
 // Numbers of the cells that share a corner with this one, each pair once but for periodic bodies.
 template <class F>
 void for_each_neighbour(const lattice::Grid& grid, std::int64_t number, F&& f) {
-  const Int3 at = indices(grid, number);
+  const Int3 at = cell_indices(grid, number);
   for (int s = 0; s < 27; ++s) {
     const Int3 step{s % 3 - 1, s / 3 % 3 - 1, s / 9 - 1};
     Int3 next;
@@ -83,7 +79,7 @@ std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const 
     CrackEvent& event = events[event_of[c] = event_of[sets.of(c)]];
     event.time = std::min(event.time, cell.moment);
     event.duration = std::max(event.duration, cell.moment);  // its end, so far
-    const Int3 at = indices(grid, cell.number);
+    const Int3 at = cell_indices(grid, cell.number);
     event.place = event.place + grid.position(at) + 0.5 * grid.d * Vec3{1, 1, 1};
     event.energy += cell.energy;
     event.shear += cell.shear;

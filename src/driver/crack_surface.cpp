@@ -46,9 +46,8 @@ std::vector<std::vector<Vec3>> crack_surface(const lattice::Grid& grid, std::spa
   std::vector<std::vector<Vec3>> polygons;
   polygons.reserve(cells.size());
   for (const CrackedCell& cell : cells) {
-    const Int3 at{cell.number % grid.cells[0], cell.number / grid.cells[0] % grid.cells[1],
-                  cell.number / (grid.cells[0] * grid.cells[1])};
-    polygons.push_back(cut_of_cell(grid.position(at) + 0.5 * grid.d * Vec3{1, 1, 1}, grid.d, cell.normal));
+    const Vec3 corner = grid.position(cell_indices(grid, cell.number));
+    polygons.push_back(cut_of_cell(corner + 0.5 * grid.d * Vec3{1, 1, 1}, grid.d, cell.normal));
   }
   return polygons;
 }

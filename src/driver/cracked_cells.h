@@ -18,6 +18,11 @@ struct CrackedCell {
   Vec3 normal{};
 };
 
+/// Indices (i, j, k) of the cell with this number.
+inline Int3 cell_indices(const lattice::Grid& grid, std::int64_t number) {
+  return {number % grid.cells[0], number / grid.cells[0] % grid.cells[1], number / (grid.cells[0] * grid.cells[1])};
+}
+
 /// Opening of the crack in a cell [m]: omega h times the strain across it, with the band width h of its normal (theory,
 /// 12); 0 where it is closed or there is none. Ghosts of the displacements must be up to date.
 double crack_opening(const model::Model& model, const model::State& state, std::int64_t cell);

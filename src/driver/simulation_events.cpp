@@ -107,7 +107,7 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
     if (factor > 0) balance.add(factor, measured.elastic_energy, work_of_supports());
     measured.load_factor = factor;
     measured.given = balance.work();
-    measured.cracked = events.taken();
+    measured.cracked = cracking()->energy_taken();
     state_->time = static_cast<double>(path.events);
     if (observer.history) observer.history(outcome.measurement, *state_);
   };

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "base/exact_sum.h"
 #include "lattice/halo.h"
 
 namespace koshi::failure {
@@ -62,10 +61,7 @@ void CrackEvents::consider(std::int64_t n, double factor) {
 void CrackEvents::consider_row(std::int64_t j, std::int64_t k) {
   const lattice::Layout& layout = model_.layout();
   const std::int64_t cells = layout.owned()[0] + 1, first = layout.index(-1, j, k);
-  const double* u = state_.displacement.component(0) + first;
-  cracking_.strain_rows_(
-      {{u, u + layout.pitch(), u + layout.plane(), u + layout.plane() + layout.pitch()}, state_.displacement.stride()},
-      0.25 / model_.lattice.grid.d, cells, cracking_.mean_.data(), cracking_.radius_.data());
+  cracking_.look_at_row(j, k);
   const std::uint16_t* material = model_.lattice.cell.component(0) + first;
   const float* safe = cracking_.limit_.component(0) + first;
   for (std::int64_t i = 0; i < cells; ++i) {
@@ -163,14 +159,6 @@ void CrackEvents::soften(std::int64_t n) {
 void CrackEvents::unload() {
   scale(1 / factor_);
   factor_ = 1;
-}
-
-double CrackEvents::taken() const {
-  ExactSum sum;
-  lattice::for_each_owned(model_.layout(),
-                          [&](auto, auto, auto, auto n) { sum += state_.crack.component(Cracking::dissipated)[n]; });
-  sum.sum_ranks(model_.communicator);
-  return sum.value();
 }
 
 std::int64_t CrackEvents::count(double at_least) const {

@@ -31,8 +31,6 @@ class CrackEvents {
   /// Goes back to the unit load, for the next solve (collective).
   void unload();
 
-  /// Energy [J] that cracks have taken so far (collective).
-  double taken() const;
   /// Cells that have cracked, and those that have cracked through (collective).
   std::int64_t cracked() const { return count(0); }
   std::int64_t parted() const { return count(1); }

@@ -115,13 +115,17 @@ void Cracking::follow(double dt) {
   close_faces(true);
 }
 
-void Cracking::follow_row(std::int64_t j, std::int64_t k, double dt) {
+void Cracking::look_at_row(std::int64_t j, std::int64_t k) {
   const lattice::Layout& layout = model_.layout();
-  const std::int64_t cells = layout.owned()[0] + 1, first = layout.index(-1, j, k);
-  const double* u = state_.displacement.component(0) + first;
+  const double* u = state_.displacement.component(0) + layout.index(-1, j, k);
   strain_rows_(
       {{u, u + layout.pitch(), u + layout.plane(), u + layout.plane() + layout.pitch()}, state_.displacement.stride()},
-      0.25 / model_.lattice.grid.d, cells, mean_.data(), radius_.data());
+      0.25 / model_.lattice.grid.d, layout.owned()[0] + 1, mean_.data(), radius_.data());
+}
+
+void Cracking::follow_row(std::int64_t j, std::int64_t k, double dt) {
+  const std::int64_t cells = model_.layout().owned()[0] + 1, first = model_.layout().index(-1, j, k);
+  look_at_row(j, k);
   const std::uint16_t* material = model_.lattice.cell.component(0) + first;
   const float* below = limit_.component(0) + first;
   for (std::int64_t i = 0; i < cells; ++i) {

@@ -35,11 +35,16 @@ class Cracking {
   /// Adds the forces of closed crack faces on row (j, k), force[c] pointing to node i = 0.
   void add_faces(std::int64_t j, std::int64_t k, double* const* force) const;
 
+  /// Energy [J] that cracks and the friction of their faces have taken so far (collective).
+  double energy_taken() const;
+
   /// Adds to a balance of the state the energy of closed faces and where energy has gone (collective).
   void complete(mechanics::Balance& balance) const;
 
  private:
   friend class CrackEvents;  // of the same cells, in equilibrium
+  /// Fills mean_ and radius_ for the row of cells (j, k), from i = -1 on.
+  void look_at_row(std::int64_t j, std::int64_t k);
   void follow_row(std::int64_t j, std::int64_t k, double dt);
   void crack_further(std::int64_t n, double dt);
   float factor(std::int64_t n, double damage) const;
