@@ -60,11 +60,7 @@ class Block {
   }
 
   // What cracks have taken [J].
-  double taken() const {
-    double sum = 0;
-    lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) { sum += state_->crack.component(12)[n]; });
-    return sum;
-  }
+  double taken() const { return cracking_->energy_taken(); }
 
  private:
   model::Model& model_;
