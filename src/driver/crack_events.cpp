@@ -49,14 +49,29 @@ double CrackEvent::magnitude() const {
   return energy > 0 ? (std::log10(energy) - 4.8) / 1.5 : -std::numeric_limits<double>::infinity();
 }
 
-double event_window(const model::Model& model) {
+Together within_window(const model::Model& model) {
   double slowest = std::numeric_limits<double>::infinity();
   for (const model::MaterialDefinition& material : model.definition.materials)
     if (material.cracks()) slowest = std::min(slowest, material.elastic.s_wave_speed());
-  return 10 * model.lattice.grid.d / slowest;
+  const double window = 10 * model.lattice.grid.d / slowest;
+  return [window](double a, double b) { return std::abs(a - b) <= window; };
 }
 
-std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const CrackedCell> all, double window) {
+Together within_one_rise(std::span<const double> load_factors) {
+  // How many largest factors there were up to each equilibrium.
+  std::vector<int> rises;
+  double largest = 0;
+  for (const double factor : load_factors) {
+    rises.push_back((rises.empty() ? 0 : rises.back()) + (factor > largest ? 1 : 0));
+    largest = std::max(largest, factor);
+  }
+  return [rises](double a, double b) {
+    return rises.at(static_cast<std::size_t>(a)) == rises.at(static_cast<std::size_t>(b));
+  };
+}
+
+std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const CrackedCell> all,
+                                     const Together& together) {
   std::vector<CrackedCell> cells;  // by number
   std::ranges::copy_if(all, std::back_inserter(cells), [](const CrackedCell& cell) { return cell.moment > 0; });
   Sets sets(cells.size());
@@ -64,8 +79,7 @@ std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const 
     for_each_neighbour(grid, cells[c].number, [&](std::int64_t number) {
       const auto next = std::ranges::lower_bound(cells, number, {}, &CrackedCell::number);
       if (next == cells.end() || next->number != number) return;
-      if (std::abs(next->moment - cells[c].moment) <= window)
-        sets.join(c, static_cast<std::size_t>(next - cells.begin()));
+      if (together(next->moment, cells[c].moment)) sets.join(c, static_cast<std::size_t>(next - cells.begin()));
     });
 
   std::vector<CrackEvent> events;
@@ -94,16 +108,25 @@ std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const 
   return events;
 }
 
-std::vector<std::string> event_columns() {
-  return {"time [s]",   "duration [s]", "x [m]",     "y [m]",        "z [m]",
-          "energy [J]", "cells [1]",    "shear [1]", "magnitude [1]"};
+std::vector<std::string> event_columns(std::span<const double> load_factors) {
+  std::vector<std::string> columns{"time [s]", "duration [s]"};
+  if (!load_factors.empty()) columns = {"event [1]", "last event [1]", "load factor [1]"};
+  for (const char* column : {"x [m]", "y [m]", "z [m]", "energy [J]", "cells [1]", "shear [1]", "magnitude [1]"})
+    columns.emplace_back(column);
+  return columns;
 }
 
-std::vector<std::vector<double>> event_rows(std::span<const CrackEvent> events) {
+std::vector<std::vector<double>> event_rows(std::span<const CrackEvent> events, std::span<const double> load_factors) {
   std::vector<std::vector<double>> rows;
-  for (const CrackEvent& e : events)
-    rows.push_back({e.time, e.duration, e.place[0], e.place[1], e.place[2], e.energy, static_cast<double>(e.cells),
-                    e.shear, e.magnitude()});
+  for (const CrackEvent& e : events) {
+    std::vector<double>& row = rows.emplace_back();
+    if (load_factors.empty())
+      row = {e.time, e.duration};
+    else
+      row = {e.time, e.time + e.duration, load_factors[static_cast<std::size_t>(e.time)]};
+    row.insert(row.end(),
+               {e.place[0], e.place[1], e.place[2], e.energy, static_cast<double>(e.cells), e.shear, e.magnitude()});
+  }
   return rows;
 }
 

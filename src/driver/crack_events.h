@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,8 +13,8 @@
 namespace koshi::driver {
 
 struct CrackEvent {
-  double time = 0;      ///< of its first cell [s]
-  double duration = 0;  ///< from its first cell to its last [s]
+  double time = 0;      ///< moment of its first cell: [s], in equilibrium the number of an equilibrium
+  double duration = 0;  ///< from its first cell to its last
   Vec3 place{};         ///< mean of its cells' centres [m]
   double energy = 0;    ///< that its cells have taken so far [J]
   std::int64_t cells = 0;
@@ -23,18 +24,24 @@ struct CrackEvent {
   double magnitude() const;
 };
 
-/// Time within which cracks of neighbouring cells belong together [s]: in which a shear wave crosses ten cells of the
-/// slowest material that cracks.
-double event_window(const model::Model& model);
+/// Whether two cells that share a corner and crack through at these moments belong to one event.
+using Together = std::function<bool(double, double)>;
 
-/// Two cells that share a corner and crack through within the window of each other belong to one event, and so do all
-/// that hang together by such pairs. By time, then by the number of the first cell. Cells that were cracked before the
-/// run are left out.
-std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const CrackedCell> cells, double window);
+/// In motion: within the time in which a shear wave crosses ten cells of the slowest material that cracks.
+Together within_window(const model::Model& model);
 
-/// Columns and rows of events.csv (docs/formats/output.md).
-std::vector<std::string> event_columns();
-std::vector<std::vector<double>> event_rows(std::span<const CrackEvent> events);
+/// In equilibrium, where moments are numbers of equilibria, by their load factors: what cracks from one largest factor
+/// so far to the next would break all at once under loads that only rise.
+Together within_one_rise(std::span<const double> load_factors);
+
+/// Cells that belong together, and all that hang together by such pairs, are one event. By time, then by the number of
+/// the first cell. Cells that were cracked before the run are left out.
+std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const CrackedCell> cells,
+                                     const Together& together);
+
+/// Columns and rows of events.csv (docs/formats/output.md). Load factors by number of equilibrium; none in motion.
+std::vector<std::string> event_columns(std::span<const double> load_factors);
+std::vector<std::vector<double>> event_rows(std::span<const CrackEvent> events, std::span<const double> load_factors);
 
 /// Entry of the summary: number, energy, largest magnitude and b-value, which is null for fewer than 20 events.
 nlohmann::ordered_json events_summary(std::span<const CrackEvent> events);

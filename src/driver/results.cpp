@@ -46,6 +46,7 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
                     {"parted_cells", outcome.path->parted},
                     {"hierarchies", outcome.path->hierarchies},
                     {"peak", {{"event", outcome.path->peak_event}, {"load_factor", outcome.path->peak_load_factor}}}});
+      if (!outcome.stop_reason.empty()) entry["stop_reason"] = outcome.stop_reason;
     }
     return entry;
   }
@@ -151,7 +152,7 @@ std::string headline(const model::Model& model, const Outcome& outcome) {
     text = fmt::format(
         "equilibrium of {} unknowns, {} events in {} iterations, {:.3g} s: {}\n"
         "  the most is carried at event {}, load factor {:.6g}; {} cells cracked, {} of them through\n",
-        outcome.solution->unknowns, path.events, outcome.solution->iterations, outcome.seconds, path.reason,
+        outcome.solution->unknowns, path.events, outcome.solution->iterations, outcome.seconds, escaped(path.reason),
         path.peak_event, path.peak_load_factor, path.cracked, path.parted);
   } else if (outcome.solution) {
     text = fmt::format("equilibrium of {} unknowns in {} iterations, residual {:.1e}, {:.3g} s\n",
@@ -166,7 +167,7 @@ std::string headline(const model::Model& model, const Outcome& outcome) {
         outcome.seconds,
         1e-6 * static_cast<double>(model.node_count) * static_cast<double>(outcome.steps) / outcome.seconds);
   }
-  if (!outcome.stop_reason.empty())
+  if (!outcome.stop_reason.empty() && !outcome.path)
     text += fmt::format("  ended at t = {:.6g} s: {}\n", static_cast<double>(outcome.steps) * outcome.time_step,
                         escaped(outcome.stop_reason));
   for (std::size_t p = 0; p < model.probes.size(); ++p) {

@@ -66,7 +66,9 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
 
   Observer observer;
   nlohmann::ordered_json cracks;
+  std::vector<double> load_factors;  // of an equilibrium that follows its cracks, by number of the event
   observer.history = [&](const mechanics::Measurement& measurement, model::State& at) {
+    if (definition.cracks_in_equilibrium()) load_factors.push_back(measurement.balance.load_factor);
     history->write(history_row(model, at.time, measurement));
   };
   observer.fields = [&](model::State& at, double) {
@@ -74,7 +76,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
       const FieldSet set(definition.output.fields, model, at, simulation.meter());
       field_writer.write(at.time, set.fields());
     });
-    if (definition.cracks() && definition.analysis.stepped()) cracks = write_crack_files(model, at, options.directory);
+    if (definition.cracks()) cracks = write_crack_files(model, at, load_factors, options.directory);
   };
   observer.progress = [&](double fraction, const std::string& details) {
     progress.update(fraction, details);

@@ -6,6 +6,7 @@
 
 #include "base/exact_sum.h"
 #include "driver/simulation.h"
+#include "driver/stop_criteria.h"
 #include "failure/crack_events.h"
 #include "statics/static_solver.h"
 
@@ -156,7 +157,9 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
       path.peak_load_factor = factor;
     }
     outcome.stopped = observer.poll && observer.poll(*state_);
+    outcome.stop_reason = reason_to_stop(*model_, *state_, outcome.measurement);
     path.reason = over                                        ? "nothing cracks any more"
+                  : !outcome.stop_reason.empty()              ? outcome.stop_reason
                   : balance.stiffness() < parted              ? "the body has parted"
                   : path.events >= definition.analysis.events ? "number of events"
                   : outcome.stopped                           ? "stopped"

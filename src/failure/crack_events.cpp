@@ -150,6 +150,8 @@ void CrackEvents::soften(std::int64_t n) {
   if (crack.ratio <= 1 || left < least_strength || after < trace) after = 0;
   crack.damage = 1 - after;
   cracking_.store(n, crack);
+  if (1 - before < model::parted && crack.damage >= model::parted)
+    state_.crack.component(Cracking::moment)[n] = state_.time;
   set_factor(n, crack.damage);
   losses_.push_back(
       {n, before - std::max(after, trace), mechanics::cell_motion(model_.lattice, state_.displacement, n)});

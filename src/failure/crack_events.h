@@ -26,7 +26,8 @@ class CrackEvents {
   /// Goes there: the displacements, ghosts too, and what the last cells have lost on the way (collective).
   void go(double factor);
   /// Softens the cells that are at their strength now, with those within a thousandth of it; false where a crack has
-  /// only come to the end of its energy (collective).
+  /// only come to the end of its energy (collective). The state's time counts as the moment of cells that crack
+  /// through.
   bool soften();
   /// Goes back to the unit load, for the next solve (collective).
   void unload();

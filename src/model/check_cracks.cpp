@@ -37,7 +37,15 @@ void check_stop(const Checker& check, const StopDefinition& stop) {
     check.fail(path,
                "stop_when has no condition; give a probe with below, such as { probe = \"pull\", below = 0.2 }, or "
                "a face such as { face = \"x-max\" }");
+  const bool at_rest = definition.analysis.type == AnalysisDefinition::Type::statics;
+  if (at_rest && !definition.cracks())
+    check.fail(
+        path,
+        "no material can crack, and such an equilibrium is found at once, with nothing to stop on the way; give a "
+        "material a fracture, or leave stop_when out");
   check.within(ranges::moment, path + ".after", stop.after);
+  if (at_rest && stop.after != 0)
+    check.fail(path + ".after", "a static analysis has no time that could pass before; leave after out");
   if (stop.face && !definition.cracks())
     check.fail(path + ".face", "no material can crack, so that no crack reaches a face; give one a fracture");
   if (stop.probe.empty()) return;

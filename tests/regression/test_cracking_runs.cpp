@@ -126,6 +126,53 @@ TEST_F(CrackingRuns, EventsAreTheSameOnTwoRanks) {
   EXPECT_GT(analysis.at("peak").at("event"), 0);
 }
 
+// An equilibrium ends at the event at which its reaction has fallen or a crack has come to a face, and its catalogue
+// holds every cell that cracked through, by number of event and load factor; the same on two ranks.
+TEST_F(CrackingRuns, EquilibriaEndWhenToldToAndTellWhatBroke) {
+  const std::string events =
+      "run plate.toml --set boundary.pull.history='[[\"0 s\", 1]]' --set output='{fields=[\"damage\"], "
+      "crack_surface=true}' --set 'probe=[{name=\"pull\", face=\"x-max\", quantity=\"reaction\"}]' ";
+  const std::string fallen = "--set analysis='{type=\"static\", stop_when={probe=\"pull\", below=0.4}}' ";
+  const Ended one = koshi(events + fallen + "--out one");
+  ASSERT_EQ(one.code, 0) << one.error;
+  EXPECT_THAT(one.output, HasSubstr("of its largest, "));
+  ASSERT_EQ(koshi(events + fallen + "--quiet --out two --ranks 2").code, 0);
+
+  const auto history = io::read_history(directory_ / "one/history.csv");
+  double peak = 0;
+  int fell = 0;
+  for (std::size_t row = 0; row < history[0].values.size(); ++row) {
+    const double force = std::hypot(history[2].values[row], history[3].values[row], history[4].values[row]);
+    peak = std::max(peak, force);
+    fell += force < 0.4 * peak;
+  }
+  EXPECT_EQ(fell, 1) << "only the last row";
+  EXPECT_THAT(summary("one").at("analysis").at("stop_reason").get<std::string>(),
+              HasSubstr("the reaction \"pull\" of"));
+
+  const nlohmann::json cracks = summary("one").at("cracks");
+  EXPECT_GT(cracks.at("cells").get<int>(), 5);
+  EXPECT_EQ(cracks.at("cells"), summary("two").at("cracks").at("cells"));
+  const auto catalogue = io::read_history(directory_ / "one/events.csv");
+  ASSERT_EQ(catalogue.size(), 10u);
+  EXPECT_EQ(catalogue[2].name, "load factor");
+  EXPECT_EQ(catalogue[7].name, "cells");
+  double cells = 0;
+  for (std::size_t e = 0; e < catalogue[0].values.size(); ++e) {
+    cells += catalogue[7].values[e];
+    EXPECT_EQ(catalogue[2].values[e], history[1].values[static_cast<std::size_t>(catalogue[0].values[e])]);
+    EXPECT_LE(catalogue[0].values[e], catalogue[1].values[e]);
+  }
+  EXPECT_EQ(cells, cracks.at("cells").get<double>());
+  EXPECT_THAT(file("one/cracks.vtp"),
+              HasSubstr("NumberOfPolys=\"" + std::to_string(cracks.at("cells").get<int>()) + "\""));
+
+  const Ended face =
+      koshi(events + "--set analysis='{type=\"static\", stop_when={face=\"y-max\"}}' --out face --ranks 2");
+  ASSERT_EQ(face.code, 0) << face.error;
+  EXPECT_THAT(face.output, HasSubstr("a crack has reached the face y-max"));
+}
+
 // Random strengths and stiffnesses, with a correlation length or without, belong to cells and not to ranks; what came
 // out is told by check, the log and the summary.
 TEST_F(CrackingRuns, ScatterIsTheSameOnAnyRanks) {

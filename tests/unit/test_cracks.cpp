@@ -115,7 +115,9 @@ TEST(PreCracks, WhatIsWrongIsSaidAtTheKey) {
        "there is no probe \"wal\" of a reaction; did you mean \"wall\"?"},
       {"analysis.stop_when={below=0.5}", "\"below\" has no meaning here; it goes with a probe"},
       {"analysis.stop_when={face='x'}", "unknown face \"x\""},
-      {"analysis={type='static', stop_when={face='x-max'}}", "\"stop_when\" has no meaning here"},
+      {"analysis={type='modes', stop_when={face='x-max'}}", "\"stop_when\" has no meaning here"},
+      {"analysis={type='static', stop_when={face='x-max', after=1}}",
+       "a static analysis has no time that could pass before; leave after out"},
   };
   for (const auto& [override_text, message] : wrong)
     EXPECT_THAT([&] { cracked(read({override_text})); }, ThrowsMessage<InputError>(HasSubstr(message)))
@@ -125,6 +127,11 @@ TEST(PreCracks, WhatIsWrongIsSaidAtTheKey) {
         read({"crack=[]", "material.rock.fracture.law=none", "analysis.stop_when={face='x-max'}"});
       },
       ThrowsMessage<InputError>(HasSubstr("no material can crack, so that no crack reaches a face")));
+  EXPECT_THAT(
+      [&] {
+        read({"crack=[]", "material.rock.fracture.law=none", "analysis={type='static', stop_when={face='x-max'}}"});
+      },
+      ThrowsMessage<InputError>(HasSubstr("no material can crack, and such an equilibrium is found at once")));
   EXPECT_THAT(
       [&] {
         read({"crack=[]", "material.rock.fracture.law=none", "output.crack_surface=true"});
@@ -143,7 +150,8 @@ TEST(Events, GroupCellsInSpaceAndTime) {
   std::vector<driver::CrackedCell> cells{cell({0, 0, 0}, 5, 8, 1), cell({1, 1, 0}, 6.5, 1), cell({2, 1, 1}, 8, 3),
                                          cell({3, 1, 1}, 11, 4),   cell({9, 1, 0}, 6, 2),   cell({5, 5, 2}, 0, 9)};
   std::ranges::sort(cells, {}, &driver::CrackedCell::number);
-  auto events = driver::crack_events(grid, cells, 2);
+  const auto within_two = [](double a, double b) { return std::abs(a - b) <= 2; };
+  auto events = driver::crack_events(grid, cells, within_two);
   ASSERT_EQ(events.size(), 3u);  // the cell that was cracked before the run is none
   EXPECT_EQ(events[0].time, 5);
   EXPECT_EQ(events[0].duration, 3);
@@ -156,9 +164,36 @@ TEST(Events, GroupCellsInSpaceAndTime) {
   EXPECT_EQ(events[1].cells, 1);
   EXPECT_EQ(events[2].time, 11);
   grid.periodic[0] = true;
-  events = driver::crack_events(grid, cells, 2);
+  events = driver::crack_events(grid, cells, within_two);
   ASSERT_EQ(events.size(), 2u);
   EXPECT_EQ(events[0].cells, 4);
+}
+
+// In equilibrium moments are numbers of events. The factors rise to 2 at event 2 and not beyond until 5: events 2, 3
+// and 4 are one rise, 1 and 5 are others, so that a chain of neighbours at 2, 4, 5 and one at 1 are three events.
+TEST(Events, GroupCellsOfOneRise) {
+  const std::vector<double> factors{0, 1, 2, 1.5, 2, 2.5, 2.1};
+  const auto together = driver::within_one_rise(factors);
+  for (int a = 1; a <= 6; ++a)
+    for (int b = 1; b <= 6; ++b) {
+      const auto rise = [](int e) { return e == 1 ? 1 : e < 5 ? 2 : 3; };
+      EXPECT_EQ(together(a, b), rise(a) == rise(b)) << a << " " << b;
+    }
+  const lattice::Grid grid{{10, 10, 4}, 2, {}, {}};
+  const std::vector<driver::CrackedCell> cells{cell({0, 0, 0}, 1), cell({1, 0, 0}, 2), cell({2, 0, 0}, 4, 3),
+                                               cell({3, 0, 0}, 5)};
+  const auto events = driver::crack_events(grid, cells, together);
+  const auto rows = driver::event_rows(events, factors);
+  ASSERT_EQ(rows.size(), 3u);
+  const auto columns = driver::event_columns(factors);
+  EXPECT_EQ(columns[0], "event [1]");
+  EXPECT_EQ(columns[2], "load factor [1]");
+  // Number, last number, factor; the middle event has its place between its two cells.
+  for (const auto& row : rows) EXPECT_EQ(row.size(), columns.size());
+  EXPECT_THAT(std::vector(rows[1].begin(), rows[1].begin() + 8), testing::ElementsAre(2, 4, 2, 4, 1, 1, 4, 2));
+  EXPECT_EQ(rows[0][0], 1);
+  EXPECT_EQ(rows[2][2], 2.5);
+  EXPECT_EQ(driver::event_columns({})[0], "time [s]");
 }
 
 // Magnitudes by log10 E = 4.8 + 1.5 M. Energies of 20 events at 1, 10, 100 ... of the least: the mean lies by 1/1.5

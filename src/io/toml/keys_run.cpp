@@ -12,6 +12,10 @@ const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
   const auto of_stepped = [&](Key<D> key) {
     return std::move(key).only_for("type \"quasi-static\" or \"dynamic\"", {"type"}, stepped);
   };
+  const auto of_runs = [](Key<D> key) {
+    return std::move(key).only_for("type \"static\", \"quasi-static\" or \"dynamic\"", {"type"},
+                                   [](const D& analysis) { return analysis.type != Type::modes; });
+  };
   const auto of_modes = [](Key<D> key) {
     return std::move(key).only_for("type \"modes\"", {"type"},
                                    [](const D& analysis) { return analysis.type == Type::modes; });
@@ -43,13 +47,11 @@ const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
              "found anew.",
              {.range = ranges::event_count, .example = "1000"})
           .only_for("type \"static\"", {"type"}, [](const D& analysis) { return analysis.type == Type::statics; }),
-      of_stepped(key<D>("stop_when", &D::stop_when, "What ends the run before its time; unset: nothing.",
-                        {.title = "stop_when", .example = R"({probe = "pull", below = 0.2})"})),
-      key<D>("start_from", &D::start_from,
-             "Output directory of an earlier run whose displacements are the start of this one.",
-             {.example = R"("out/loaded")"})
-          .only_for("type \"static\", \"quasi-static\" or \"dynamic\"", {"type"},
-                    [](const D& analysis) { return analysis.type != Type::modes; }),
+      of_runs(key<D>("stop_when", &D::stop_when, "What ends the run before its time; unset: nothing.",
+                     {.title = "stop_when", .example = R"({probe = "pull", below = 0.2})"})),
+      of_runs(key<D>("start_from", &D::start_from,
+                     "Output directory of an earlier run whose displacements are the start of this one.",
+                     {.example = R"("out/loaded")"})),
       of_modes(key<D>("count", &D::count, "Number of modes.", {.range = ranges::mode_count, .example = "10"})),
       of_modes(key<D>("near", &D::near, "The modes closest to this frequency, of the 200 lowest; \"0 Hz\": the lowest.",
                       {.dimension = Dimension::rate, .range = ranges::frequency, .example = R"("0 Hz")"})),
