@@ -262,6 +262,7 @@ struct ProbeDefinition {
   Quantity quantity = Quantity::displacement;  ///< what is reported
   std::optional<Reduce> reduce;                ///< unset: sum for reactions and moments, else mean
   std::optional<Vec3> center;  ///< of a moment of the reactions [m]; unset: mean position of the selected nodes
+  std::string minus;           ///< name of a selection whose mean is taken off; empty: none
 
   /// The reduction in force: the one set, else the default of the quantity.
   Reduce reduction() const {

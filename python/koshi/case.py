@@ -288,6 +288,8 @@ class Probe:
     """default: sum for reactions and moments, else mean"""
     center: Vector | None = None
     """point about which a moment is taken, default the mean of the selected nodes"""
+    minus: str | None = None
+    """name of a selection whose mean is taken off"""
 
 
 @dataclass

@@ -163,6 +163,16 @@ void check_probe(const Checker& check, const std::string& path, const ProbeDefin
   if (probe.quantity == ProbeDefinition::Quantity::moment && probe.reduction() != ProbeDefinition::Reduce::sum)
     check.fail(path + ".reduce", fmt::format("{} is a moment, which is a sum over its nodes; leave reduce out", title));
   if (probe.center) check.within(ranges::position, path + ".center", *probe.center);
+  if (probe.minus.empty()) return;
+  using D = ProbeDefinition;
+  check_named_selection(check, path + ".minus", probe.minus);
+  if (probe.quantity != D::Quantity::displacement && probe.quantity != D::Quantity::rotation &&
+      probe.quantity != D::Quantity::velocity)
+    check.fail(path + ".minus", fmt::format("{} takes the mean of a selection off, which has a meaning for "
+                                            "displacement, rotation and velocity; leave minus out",
+                                            title));
+  if (probe.reduction() != D::Reduce::mean && probe.reduction() != D::Reduce::area_mean)
+    check.fail(path + ".minus", fmt::format("{} takes a mean off; reduce is to be \"mean\" or \"area-mean\"", title));
 }
 
 }  // namespace

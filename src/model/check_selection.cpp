@@ -18,6 +18,13 @@ void check_reference(const Checker& check, const std::string& path, const std::s
   check.fail(path, fmt::format("there is no {} \"{}\"; {}", kind, name, suggestion(name, names)));
 }
 
+// Names of the first `known`.
+std::vector<std::string> names_of_selections(const Definition& definition, std::size_t known) {
+  std::vector<std::string> names;
+  for (std::size_t s = 0; s < known; ++s) names.push_back(definition.selections[s].name);
+  return names;
+}
+
 void check_shapes(const Checker& check, const std::string& path, const Selection& s) {
   if (s.box) {
     check.within(ranges::position, path + ".box.min", s.box->first);
@@ -81,8 +88,7 @@ void check_selection(const Checker& check, const std::string& path, const std::s
       if (!region.name.empty()) regions.push_back(region.name);
     check_reference(check, path + ".surface", "region", selection.surface, regions);
   }
-  std::vector<std::string> selections;
-  for (std::size_t s = 0; s < known; ++s) selections.push_back(definition.selections[s].name);
+  const std::vector<std::string> selections = names_of_selections(definition, known);
   if (!selection.named.empty()) check_reference(check, path + ".selection", "selection", selection.named, selections);
   for (const auto* list : {&selection.any_of, &selection.all_of, &selection.first_of})
     for (const std::string& name : *list)
@@ -92,6 +98,11 @@ void check_selection(const Checker& check, const std::string& path, const std::s
 void check_selection(const Checker& check, const std::string& path, const std::string& title,
                      const Selection& selection) {
   check_selection(check, path, title, selection, check.definition.selections.size());
+}
+
+void check_named_selection(const Checker& check, const std::string& path, const std::string& name) {
+  check_reference(check, path, "selection", name,
+                  names_of_selections(check.definition, check.definition.selections.size()));
 }
 
 void check_selections(const Checker& check) {

@@ -19,6 +19,9 @@ void check_selection(const Checker& check, const std::string& path, const std::s
 void check_selection(const Checker& check, const std::string& path, const std::string& title,
                      const Selection& selection);
 
+/// A name at the key `path` that must be one of a [[selection]].
+void check_named_selection(const Checker& check, const std::string& path, const std::string& name);
+
 /// Names of regions, and [[selection]].
 void check_selections(const Checker& check);
 

@@ -79,6 +79,18 @@ std::string describe(const Definition& definition, const PrescribedMotion& motio
       names[motion.component], motion.value, unit);
 }
 
+// Gives the probe these nodes, each with its area or 1 as its weight; the sum of the weights (collective).
+double add_weights(const Model& model, const std::vector<SelectedNode>& nodes, Probe& probe) {
+  const bool by_area = probe.definition.reduce == ProbeDefinition::Reduce::area_mean;
+  ExactSum total;
+  for (const SelectedNode& node : nodes) {
+    probe.nodes.emplace_back(node.node, by_area ? node.area : 1.0);
+    total += probe.nodes.back().second;
+  }
+  total.sum_ranks(model.communicator);
+  return total.value();
+}
+
 }  // namespace
 
 std::vector<PrescribedMotion> make_motions(const Model& model) {
@@ -170,26 +182,31 @@ std::vector<Load> make_loads(const Model& model) {
 }
 
 std::vector<Probe> make_probes(const Model& model) {
-  using Reduce = ProbeDefinition::Reduce;
   std::vector<Probe> probes;
   for (std::size_t p = 0; p < model.definition.probes.size(); ++p) {
     Probe probe{model.definition.probes[p], {}, 0, {}};
     probe.definition.reduce = probe.definition.reduction();
     const std::string path = fmt::format("probe[{}]", p);
     const auto nodes = nodes_of(model, probe.definition.selection, path, title("probe", probe.definition.name, p));
-    const bool by_area = probe.definition.reduce == Reduce::area_mean;
-    ExactSum total;
-    for (const SelectedNode& node : nodes) {
-      probe.nodes.emplace_back(node.node, by_area ? node.area : 1.0);
-      total += probe.nodes.back().second;
-    }
+    probe.total = add_weights(model, nodes, probe);
     if (probe.definition.quantity == ProbeDefinition::Quantity::moment) {
       const Vec3 center = probe.definition.center ? *probe.definition.center : mean_position(model, nodes);
       for (const SelectedNode& node : nodes) probe.arms.push_back(model.lattice.grid.position(node.global) - center);
     }
-    total.sum_ranks(model.communicator);
-    probe.total = total.value();
-    if (probe.total == 0)
+    bool has_surface = probe.total != 0;
+    // The mean of the other selection is taken off by weights that are negative.
+    if (has_surface && !probe.definition.minus.empty()) {
+      Selection other;
+      other.named = probe.definition.minus;
+      const auto others = nodes_of(model, other, path + ".minus", title("selection", other.named, p));
+      const std::size_t first = probe.nodes.size();
+      const double total = add_weights(model, others, probe);
+      has_surface = total != 0;
+      for (auto weighted = probe.nodes.begin() + static_cast<std::ptrdiff_t>(first); weighted != probe.nodes.end();
+           ++weighted)
+        weighted->second *= -probe.total / total;
+    }
+    if (!has_surface)
       throw InputError(model.definition.places.find(path + ".reduce"),
                        fmt::format("{} selects no surface of the body to average over; use reduce = \"mean\"",
                                    title("probe", probe.definition.name, p)));

@@ -251,12 +251,40 @@ quantity = "moment"
 reduce = "mean"
 )",
        R"(35:10: error: probe "tip" is a moment, which is a sum over its nodes; leave reduce out)"},
+      {R"(name = "tip"
+)",
+       R"(name = "tip"
+minus = "foot"
+)",
+       R"(34:9: error: there is no selection "foot"; known: "spot")"},
+      {R"(name = "tip"
+point = [0, 0, 0])",
+       R"(name = "tip"
+quantity = "reaction"
+minus = "foot"
+point = [0, 0, 0]
+
+[[selection]]
+name = "foot"
+face = "x-min")",
+       R"(35:9: error: probe "tip" takes the mean of a selection off, which has a meaning for displacement, rotation and velocity; leave minus out)"},
+      {R"(name = "tip"
+point = [0, 0, 0])",
+       R"(name = "tip"
+reduce = "max"
+minus = "foot"
+point = [0, 0, 0]
+
+[[selection]]
+name = "foot"
+face = "x-min")",
+       R"(35:9: error: probe "tip" takes a mean off; reduce is to be "mean" or "area-mean")"},
       {R"(every = "1 s")", "every = 0", "36:9: error: every is 0 s; it must lie between 1e-20 s and 1e+15 s"},
       {R"(every = "1 s")", R"(checkpoint_every_wall = "-1 min")",
        "36:25: error: checkpoint_every_wall is -60 s; it must lie between 1e-20 s and 1e+15 s"},
       {R"(title = "base")", R"(title = "")", "1:9: error: title is empty; give it a text or leave it out"},
   };
-  ASSERT_EQ(inputs.size(), 12u);
+  ASSERT_EQ(inputs.size(), 15u);
   expect_messages(inputs);
 }
 

@@ -209,6 +209,10 @@ const std::vector<Key<ProbeDefinition>>& keys_of(Tag<ProbeDefinition>) {
                  {.dimension = Dimension::length, .range = ranges::position, .example = R"(["5 mm", "5 mm", "0 mm"])"})
               .only_for("quantity \"moment\"", {"quantity"},
                         [](const D& probe) { return probe.quantity == D::Quantity::moment; }),
+          key<D>(
+              "minus", &D::minus,
+              "Name of a [[selection]] whose mean is taken off: how far two places move apart, as the lips of a notch.",
+              {.example = R"("lower lip")"}),
       });
   return keys;
 }
