@@ -101,6 +101,27 @@ py::array field(Simulation& simulation, const std::string& name) {
       .attr("copy")();
 }
 
+// Damage of the own cells: what cracks have taken of their springs.
+py::array damage(Simulation& simulation) {
+  simulation.check_cracks();
+  const lattice::Layout& layout = simulation.model().layout();
+  const Int3 box = owned_cells(simulation.model().lattice.grid, layout);
+  return view_of(simulation.state().crack, layout, 1, box, py::none(), true)[py::int_(0)].attr("copy")();
+}
+
+void set_damage(Simulation& simulation, const py::array_t<double, py::array::c_style | py::array::forcecast>& values,
+                const Vec3& normal) {
+  simulation.check_cracks();
+  const lattice::Layout& layout = simulation.model().layout();
+  const Int3 box = owned_cells(simulation.model().lattice.grid, layout);
+  if (values.ndim() != 3 || values.shape(0) != box[2] || values.shape(1) != box[1] || values.shape(2) != box[0])
+    throw InputError("damage: error: the array must have a value for each cell of this rank, [z][y][x], as damage has");
+  lattice::Field<double> wanted(layout, 1);
+  lattice::for_each(layout, {0, 0, 0}, box,
+                    [&](auto i, auto j, auto k, auto n) { wanted.component(0)[n] = values.at(k, j, i); });
+  simulation.damage_cells(wanted, normal);
+}
+
 }  // namespace
 
 void bind_simulation(py::module_& module) {
@@ -142,6 +163,8 @@ void bind_simulation(py::module_& module) {
       py::call_guard<py::gil_scoped_release>());
   simulation.def("run", run_to_end);
   simulation.def("measure", [](Simulation& s) { return measured(s.model(), s.measure()); });
+  simulation.def("damage", damage);
+  simulation.def("set_damage", set_damage);
   simulation.def("set_load_factor", &Simulation::set_load_factor);
   simulation.def("set_boundary_factor", &Simulation::set_boundary_factor);
 }

@@ -160,6 +160,20 @@ class Simulation:
         """
         return self._core.field(name)
 
+    @property
+    def damage(self) -> np.ndarray:
+        """Damage of this rank's cells, 0 whole, 1 parted: a copy (nz, ny, nx). Raises InputError where nothing cracks."""
+        return self._core.damage()
+
+    def set_damage(self, damage: np.ndarray, normal: Sequence[float] = (1, 0, 0)) -> None:
+        """Raises the damage of this rank's cells to (nz, ny, nx) values where they are above what the cells have.
+
+        A cell that had no crack gets one of this normal, as uniaxial tension across it would have made it; others keep
+        theirs. Under mpiexec all ranks call it. Raises InputError for a value outside 0 ... 1 and for damage of a cell
+        that cannot crack; then nothing has changed.
+        """
+        self._core.set_damage(damage, tuple(normal))
+
     def set_load_factor(self, name: str, factor: float) -> None:
         """From now on the load is `factor` times what the case says; its history no longer counts."""
         self._core.set_load_factor(name, factor)

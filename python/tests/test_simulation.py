@@ -255,3 +255,107 @@ def test_output_directory_holds_the_whole_input(case, tmp_path):
     assert (tmp_path / "out/summary.json").exists() and (tmp_path / "out/fields.pvd").exists()
     again = koshi.run(tmp_path / "out/resolved.toml")
     assert (again.measurement.probes["top"] == result.measurement.probes["top"]).all()
+
+
+@pytest.mark.parametrize("reduce", [None, "area-mean"])
+def test_probe_of_a_relative_displacement(case, reduce):
+    case.selection = [koshi.Selection("half way", box={"min": (0, 0, 1e-3), "max": (1, 1, 2e-3)})]
+    case.probe = [
+        koshi.Probe("top", face="z-max", reduce=reduce),
+        koshi.Probe("below", selection="half way", reduce=reduce),
+        koshi.Probe("apart", face="z-max", reduce=reduce, minus="half way"),
+    ]
+    probes = koshi.run(case).measurement.probes
+    assert probes["top"][2] > probes["below"][2] > 0
+    assert probes["apart"] == pytest.approx([t - b for t, b in zip(probes["top"], probes["below"], strict=True)], rel=1e-12)
+
+
+@pytest.fixture
+def brittle():
+    """A bar of 6 x 2 x 2 cells of 10 mm, held at x = 0 and pulled at its other end by 1 um, far below its strength."""
+    return koshi.Case(
+        koshi.Lattice("10 mm", kinematics="least-squares"),
+        koshi.Body(size=(0.06, 0.02, 0.02), material="rock"),
+        {"rock": koshi.Material(30e9, 0, 2400, fracture={"tensile_strength": 3e6, "fracture_energy": 100})},
+        boundary=[koshi.Boundary(face="x-min", fix=["x"]), koshi.Boundary(face="x-max", displacement={"x": 1e-6}, ramp=1e-3),
+                  koshi.Boundary(point=(0, 0, 0), fix=["y", "z"]), koshi.Boundary(point=(0, 0.02, 0), fix=["z"])],
+        analysis=koshi.Analysis("quasi-static", tolerance=1e-6),
+        probe=[koshi.Probe("pull", face="x-max", quantity="reaction")],
+    )  # fmt: skip
+
+
+def test_damage_is_seen_and_set(brittle):
+    whole = koshi.run(brittle).measurement.probes["pull"][0]
+    simulation = koshi.Simulation(brittle)
+    assert simulation.damage.shape == (2, 2, 6) and not simulation.damage.any()
+    damage = np.zeros((2, 2, 6))
+    damage[:, :, 2] = 0.5
+    simulation.set_damage(damage)
+    assert (simulation.damage == damage).all()
+    # One layer of six of half the stiffness: 1/(5 + 2) for 1/6. It is far from its strength and does not crack on.
+    pull = simulation.run().measurement.probes["pull"][0]
+    assert pull / whole == pytest.approx(6 / 7, rel=1e-4)
+    assert (simulation.damage == damage).all()
+    # Damage never falls; more of it leaves a tenth of the layer, 1/(5 + 10).
+    simulation.set_damage(0 * damage)
+    assert (simulation.damage == damage).all()
+    simulation.set_damage(1.8 * damage)
+    assert (simulation.damage == 1.8 * damage).all()
+    assert simulation.run().measurement.probes["pull"][0] / whole == pytest.approx(6 / 15, rel=1e-4)
+
+
+def test_damage_goes_on_from_what_was_set(brittle):
+    # Exponential softening leaves s = exp(-(x - 1)/b) of the strength at x times the strain of the onset, 1e-4; 2 b = 2 E
+    # G_f/(h f_t^2) - 1 = 65.67. Damage 0.9 is that of x = 8.1. The bar of five whole layers is pulled to 24 um = (x + 5 s)
+    # um, hence x = 21.31, s = 0.5388, whatever part of the way the layer came by set_damage.
+    simulation = koshi.Simulation(brittle, overrides=["boundary.1.displacement.x=24e-6"])
+    damage = np.zeros((2, 2, 6))
+    damage[:, :, 3] = 0.9
+    simulation.set_damage(damage)
+    force = simulation.run().measurement.probes["pull"][0] / 4e-4
+    assert simulation.damage[:, :, 3].min() > 0.9
+    assert force == pytest.approx(0.5388 * 3e6, rel=0.01)
+
+
+def test_damage_that_is_wrong_raises(brittle, case):
+    simulation = koshi.Simulation(brittle)
+    with pytest.raises(koshi.InputError, match=r"the damage of cell \(0, 0, 0\) is to be 1.5; it lies between 0 and 1"):
+        simulation.set_damage(np.full((2, 2, 6), 1.5))
+    with pytest.raises(koshi.InputError, match="must have a value for each cell of this rank"):
+        simulation.set_damage(np.zeros((6, 2, 2)))
+    with pytest.raises(koshi.InputError, match="the normal is zero"):
+        simulation.set_damage(np.zeros((2, 2, 6)), (0, 0, 0))
+    assert not simulation.damage.any()
+    with pytest.raises(koshi.InputError, match="no material of the case can crack"):
+        koshi.Simulation(case).set_damage(np.zeros((1, 1, 1)))
+    brittle.region = [koshi.Region("box", "void", min=(0.05, 0, 0), max=(0.06, 0.02, 0.02))]
+    brittle.boundary[1] = koshi.Boundary(box={"min": (0.05, 0, 0), "max": (0.05, 0.02, 0.02)}, displacement={"x": 1e-6}, ramp=1e-3)
+    brittle.probe = []
+    with pytest.raises(koshi.InputError, match=r"cell \(5, 0, 0\) is to be 0.1; the cell is empty or of a material"):
+        koshi.Simulation(brittle).set_damage(np.where(np.arange(6) == 5, 0.1, np.zeros((2, 2, 6))))
+
+
+def test_strength_from_an_array(brittle):
+    # Pulled to 1.5 MPa: a layer of a third of the strength cracks, the others do not.
+    brittle.body.strength = np.ones((2, 2, 6))
+    brittle.body.strength[:, :, 4] = 1 / 3
+    simulation = koshi.Simulation(brittle, overrides=["boundary.1.displacement.x=3e-6"])
+    simulation.run()
+    assert (simulation.damage[:, :, 4] > 0).all()
+    assert not np.delete(simulation.damage, 4, axis=2).any()
+    brittle.body.strength[0, 0, 0] = 0
+    with pytest.raises(koshi.InputError, match="body.strength: error: the strength of cell .0, 0, 0. is 0 times"):
+        koshi.Simulation(brittle)
+
+
+def test_grains_from_an_array(brittle, tmp_path):
+    labels = np.broadcast_to(np.arange(6) // 3, (2, 2, 6))
+    brittle.body.grain_boundary = {"labels": labels, "strength": 1 / 3}
+    overrides = ["boundary.1.displacement.x=3e-6"]
+    simulation = koshi.Simulation(brittle, overrides=overrides)
+    simulation.run(out=tmp_path / "out")
+    assert (simulation.damage[:, :, 2:4] > 0).any()
+    assert not np.delete(simulation.damage, [2, 3], axis=2).any()
+    again = koshi.Simulation(tmp_path / "out" / "resolved.toml")
+    again.run()
+    assert (again.damage == simulation.damage).all()

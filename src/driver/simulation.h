@@ -81,6 +81,12 @@ class Simulation {
   /// From now on the boundary's motion is `value` times its definition, whatever its ramp and history.
   void set_boundary_factor(const std::string& name, double value);
 
+  /// Throws InputError where no material can crack.
+  void check_cracks() const;
+  /// Raises the damage of cells, failure::Cracking::damage_cells(). Throws InputError also where no material can crack,
+  /// and for a normal of zero.
+  void damage_cells(const lattice::Field<double>& wanted, const Vec3& normal);
+
   const model::Model& model() const { return *model_; }
   /// The state, at rest until something changes it; takes its memory when first asked for.
   model::State& state();

@@ -47,6 +47,18 @@ void Simulation::set_load_factor(const std::string& name, double value) {
   model_->loads[load].history = history;
 }
 
+void Simulation::check_cracks() const {
+  if (!model_->definition.cracks())
+    throw InputError("damage: error: no material of the case can crack; give one a fracture");
+}
+
+void Simulation::damage_cells(const lattice::Field<double>& wanted, const Vec3& normal) {
+  check_cracks();
+  if (!(norm(normal) > 0))
+    throw InputError("damage: error: the normal is zero; it needs a direction such as (1, 0, 0)");
+  cracking()->damage_cells(wanted, normal);
+}
+
 void Simulation::set_boundary_factor(const std::string& name, double value) {
   model::BoundaryDefinition& boundary =
       model_->definition.boundaries[index_of(model_->definition.boundaries, name, "boundary")];

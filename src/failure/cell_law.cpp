@@ -53,6 +53,31 @@ std::optional<Crack> CellLaw::onset(const Tensor6& strain, double strength_facto
   return crack;
 }
 
+Crack CellLaw::damaged(const Vec3& n, double damage, double strength_factor) const {
+  Crack crack;
+  crack.normal = n;
+  crack.limit = threshold_of(n, strength_factor);
+  crack.onset = 0.5 * youngs_modulus_ * crack.limit * crack.limit;
+  crack.ratio = fracture_.fracture_energy / band_width(d_, n) / crack.onset;
+  if (damage >= 1 || crack.ratio <= 1) {
+    crack.damage = 1;
+    crack.taken = crack.ratio;
+    crack.kappa = std::max(crack.ratio, 1.0) * crack.limit;
+    return crack;
+  }
+  // The strength that is left is (1 - damage) times the elastic stress: less of it at a larger strain.
+  const Softening law(fracture_.softening, crack.ratio);
+  double low = 0, high = 1;
+  for (int halving = 0; halving < 60; ++halving) {
+    const double middle = 0.5 * (low + high);
+    (middle < (1 - damage) * law.strain(middle) ? low : high) = middle;
+  }
+  crack.damage = damage;
+  crack.taken = law.taken(high);
+  crack.kappa = law.strain(high) * crack.limit;
+  return crack;
+}
+
 void CellLaw::soften(Crack& crack, const Tensor6& strain, double energy) const {
   const Principal stress = principal(elastic_stress(lambda_, mu_, strain));
   const double kappa = criterion_.equivalent(stress.value) / youngs_modulus_;

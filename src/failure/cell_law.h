@@ -46,6 +46,9 @@ class CellLaw {
   Softening softening(const Crack& crack) const { return {fracture_.softening, crack.ratio}; }
   /// A cell without a crack at this strain: the crack that begins, without damage yet, or nothing.
   std::optional<Crack> onset(const Tensor6& strain, double strength_factor) const;
+  /// The crack of unit normal n with this damage, above 0 and at most 1, that uniaxial tension across it would have
+  /// made; where the cell would break at once its damage is 1.
+  Crack damaged(const Vec3& n, double damage, double strength_factor) const;
   /// Raises the damage of a cracked cell to what this strain asks for; `energy` [J/m^3] is what the intact cell would
   /// store more than its closed faces do, which damage takes.
   void soften(Crack& crack, const Tensor6& strain, double energy) const;

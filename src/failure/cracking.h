@@ -32,6 +32,11 @@ class Cracking {
   /// [s] that led there. Takes no memory.
   void follow(double dt);
 
+  /// Raises the damage of owned cells to `wanted` where that is above what they have, with cracks of unit normal n;
+  /// cells that have cracked keep their normal (collective). Throws InputError for a value outside 0 ... 1, or above 0
+  /// in a cell that cannot crack.
+  void damage_cells(const lattice::Field<double>& wanted, const Vec3& n);
+
   /// Adds the forces of closed crack faces on row (j, k), force[c] pointing to node i = 0.
   void add_faces(std::int64_t j, std::int64_t k, double* const* force) const;
 

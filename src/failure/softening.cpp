@@ -14,6 +14,11 @@ double Softening::taken(double strength) const {
   return ratio_ - strength * (ratio_ - 0.5 * (ratio_ - 1) * std::log(strength));
 }
 
+double Softening::strain(double strength) const {
+  return kind_ == material::Softening::linear ? ratio_ - (ratio_ - 1) * strength
+                                              : 1 - 0.5 * (ratio_ - 1) * std::log(strength);
+}
+
 double Softening::damage(double damage, double before, double stress, double energy) const {
   if (ratio_ <= 1) return stress > 1 ? 1 : damage;
   // What is missing to the energy at which the strength would be `strength`, if damage brought the stress down to that.

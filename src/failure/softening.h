@@ -34,6 +34,9 @@ class Softening {
   /// Energy taken when the strength has fallen to 0 <= strength <= 1: from 0 to ratio.
   double taken(double strength) const;
 
+  /// Strain of uniaxial tension, over that of the onset, at which `strength` is left, 0 < strength <= 1.
+  double strain(double strength) const;
+
   /// Damage of a cell that had `damage` and whose crack had taken `taken`, when the elastic stress grows to `stress`,
   /// and damage takes `energy` for each unit: the least, not below `damage`, at which (1 - damage) stress is no more
   /// than the strength that is left.

@@ -15,6 +15,7 @@
 #include "koshi/error.h"
 #include "koshi/input.h"
 #include "report/conditions.h"
+#include "report/events.h"
 #include "report/history.h"
 #include "report/mesh.h"
 #include "report/modes.h"
@@ -147,6 +148,9 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
 
   if (const fs::path history = directory / "history.csv"; fs::exists(history))
     data["history"] = history_block(io::read_history(history), definition);
+  if (const fs::path events = directory / "events.csv"; fs::exists(events) && definition.cracks())
+    data["curves"] =
+        event_curves(io::read_history(events), summary.value(json::json_pointer("/cracks/events/b_value"), json()));
   std::vector<ReportSample> samples;
   for (const auto& [time, path] : io::list_samples(directory))
     samples.push_back({path, time, labels[static_cast<int>(time)]});

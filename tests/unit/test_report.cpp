@@ -1,4 +1,5 @@
 // A run's output directory as the data of a report, and the page around them.
+#include "report/events.h"
 #include "report/report.h"
 
 #include <gmock/gmock.h>
@@ -348,6 +349,24 @@ TEST_F(Results, BrokenFilesAreNamed) {
   EXPECT_THAT(message(), HasSubstr("history.csv:3:"));
   io::replace_file(directory / "summary.json", "[1, 2");
   EXPECT_THAT(message(), HasSubstr("summary.json is no summary"));
+}
+
+// Three events: all are as large as the least, one as the largest. With b = 0.5 three become one over log10(3)/0.5.
+TEST(Events, AreCountedByMagnitudeAndSummedOverTime) {
+  const std::vector<io::HistoryColumn> events{
+      {"time", "s", {1, 2, 4}}, {"energy", "J", {5, 1, 2}}, {"magnitude", "1", {-1, -3, -2}}};
+  const json curves = event_curves(events, 0.5);
+  ASSERT_EQ(curves.size(), 2u);
+  const json& numbers = curves[0].at("series");
+  ASSERT_EQ(numbers.size(), 2u);
+  EXPECT_EQ(numbers[0].at("x"), json({-3, -2, -1}));
+  EXPECT_EQ(numbers[0].at("y"), json({3, 2, 1}));
+  EXPECT_NEAR(numbers[1].at("x")[1].get<double>(), -3 + std::log10(3) / 0.5, 1e-12);
+  EXPECT_EQ(numbers[1].at("y"), json({3, 1}));
+  EXPECT_EQ(curves[0].at("y").at("log"), true);
+  EXPECT_EQ(curves[1].at("series")[0].at("y"), json({5, 6, 8}));
+  EXPECT_EQ(event_curves(events, json())[0].at("series").size(), 1u);
+  EXPECT_EQ(event_curves(std::vector<io::HistoryColumn>{{"time", "s", {}}, {"energy", "J", {}}}, json()).size(), 0u);
 }
 
 TEST(HistoryReader, QuotedNamesUnitsAndARowCutShort) {
