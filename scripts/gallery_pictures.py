@@ -253,6 +253,44 @@ def l_panel(maker):
     return drawn(fig)
 
 
+def notched_beam(maker):
+    """The force over the opening of the notch's mouth, event by event, and the damage around the notch."""
+    results = Results(maker.run("11_notched_beam"))
+    mouth, force = 1e3 * np.array(results.history("mouth.displacement.x")), -5 * np.array(results.history("load.reaction.y"))
+    simulation = maker.simulation("11_notched_beam")
+    simulation.run()
+    x, y = (1e3 * c for c in simulation.coordinates[:2])
+    damage = np.ma.masked_array(simulation.damage[0], simulation.cells[0] == 0)
+    fig, (left, right) = figure(2)
+    left.plot(mouth, force, color=BLUE, linewidth=1, label="Koshi, all events")
+    left.plot(mouth[1:3], force[1:3], "o", color=BLUE, markersize=3)
+    left.set(xlabel="opening of the mouth [mm]", ylabel="force on the beam [N]", xlim=(0, None), ylim=(0, 900))
+    right.grid(visible=False)
+    shown = right.pcolormesh(x, y, damage, cmap="Reds", vmin=0, vmax=1)
+    fig.colorbar(shown, ax=right, label="damage", shrink=0.8)
+    right.set(xlabel="x [mm]", ylabel="y [mm]", aspect="equal", xlim=(905, 1105), ylim=(0, 200))
+    return drawn(fig)
+
+
+def rock_compression(maker):
+    """The column's surface and a section with its damage, and the stress over the strain."""
+    example = "21_rock_compression"
+    body, = maker.bodies(example, ["field=damage", "lines=none", "outline=false", "cut=y"])
+    results = Results(maker.directory / example)
+    time = 1e3 * np.array(results.time)
+    strain = np.interp(time, [0, 0.1, 0.6], [0, 0.04, 0.4]) / 80
+    stress = -1e-6 * np.array(results.history("press.reaction.z")) / 0.040**2
+    fig, ax = figure(width=WIDTH // 2 - 8)
+    ax.plot(1e3 * strain, stress, color=BLUE, label="Koshi")
+    ax.plot([0, 1.6], [0, 96], label="$E$ times strain", **THEORY)
+    cracks = ax.twinx()
+    cracks.plot(1e3 * strain, results.history("cracks"), color=RED, linewidth=1.4)
+    cracks.set_ylabel("taken by cracks [J]", color=RED)
+    ax.set(xlabel="strain of the platen [‰]", ylabel="stress on the platen [MPa]", xlim=(0, None), ylim=(0, None))
+    ax.legend(loc="upper left")
+    return side_by_side(body, drawn(fig))
+
+
 def pressurised_tube(maker):
     """Hoop stress in the middle of the tube's length: a map, and of every cell against its distance from the axis."""
     simulation = maker.simulation("40_pressurised_tube")
@@ -341,7 +379,8 @@ def kalthoff_winkler(maker):
 PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
             "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
             "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
-            "10_tunnel": tunnel, "12_l_panel": l_panel, "20_kalthoff_winkler": kalthoff_winkler, "30_sandstone": sandstone,
+            "10_tunnel": tunnel, "11_notched_beam": notched_beam, "12_l_panel": l_panel, "20_kalthoff_winkler": kalthoff_winkler,
+            "21_rock_compression": rock_compression, "30_sandstone": sandstone,
             "40_pressurised_tube": pressurised_tube, "50_tuning_fork": tuning_fork}
 
 

@@ -36,23 +36,23 @@ json magnitudes(std::vector<double> magnitude, const json& b_value) {
           {"series", all}};
 }
 
-json energies(const std::vector<double>& time, const std::vector<double>& energy) {
+json energies(const io::HistoryColumn& when, const std::vector<double>& energy) {
   std::vector<double> sum(energy.size());
   double so_far = 0;
   for (std::size_t e = 0; e < energy.size(); ++e) sum[e] = so_far += energy[e];
   return {{"title", "Energy of events"},
-          {"x", {{"label", "time"}, {"unit", "s"}}},
+          {"x", {{"label", when.name}, {"unit", when.unit == "1" ? "" : when.unit}}},
           {"y", {{"label", "energy so far"}, {"unit", "J"}}},
-          {"series", json::array({series("events", time, sum, "line+points")})}};
+          {"series", json::array({series("events", when.values, sum, "line+points")})}};
 }
 
 }  // namespace
 
 nlohmann::ordered_json event_curves(std::span<const io::HistoryColumn> events, const json& b_value) {
-  const std::vector<double> time = column(events, "time"), energy = column(events, "energy");
-  const std::vector<double> magnitude = column(events, "magnitude");
-  if (time.empty() || energy.size() != time.size() || magnitude.size() != time.size()) return json::array();
-  return json::array({magnitudes(magnitude, b_value), energies(time, energy)});
+  if (events.empty() || events[0].values.empty()) return json::array();
+  const std::vector<double> energy = column(events, "energy"), magnitude = column(events, "magnitude");
+  if (energy.size() != events[0].values.size() || magnitude.size() != energy.size()) return json::array();
+  return json::array({magnitudes(magnitude, b_value), energies(events[0], energy)});
 }
 
 }  // namespace koshi::report
