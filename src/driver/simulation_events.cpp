@@ -5,16 +5,13 @@
 #include <cmath>
 
 #include "base/exact_sum.h"
+#include "driver/cracked_equilibrium.h"
 #include "driver/simulation.h"
 #include "driver/stop_criteria.h"
 #include "failure/crack_events.h"
-#include "statics/static_solver.h"
 
 namespace koshi::driver {
 namespace {
-
-// Levels of the solver are made anew when old ones have cost so many iterations more than new ones would have.
-constexpr int patience = 60;
 
 /// Factor on all loads of a model, beside those at the end of their histories; undone at the end.
 class LoadFactor {
@@ -44,10 +41,11 @@ class LoadFactor {
 /// Two events are joined by a straight line of load over displacement: its work, and how much the body carries.
 class PathWork {
  public:
-  /// At an event: elastic energy, and work of the supports' present forces on their present motions [J].
-  void add(double factor, double elastic, double of_supports) {
+  /// At an event: elastic energy, work of the supports' present forces on their present motions, and what cracks that
+  /// closed or opened since the last one did to the work of the straight line [J].
+  void add(double factor, double elastic, double of_supports, double bend) {
     const double force = of_supports / factor, motion = (2 * elastic - of_supports) / factor;
-    work_ += 0.5 * (force + force_) * (factor - factor_) + 0.5 * (factor + factor_) * (motion - motion_);
+    work_ += bend + 0.5 * (force + force_) * (factor - factor_) + 0.5 * (factor + factor_) * (motion - motion_);
     force_ = force;
     motion_ = motion;
     factor_ = factor;
@@ -93,11 +91,7 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
   failure::CrackEvents events(*cracking(), *model_, *state_);
   const double end = statics::end_time(definition);
   LoadFactor loads(*model_, end);
-  lattice::Field<double> work(model_->layout(), model_->components());
-  std::vector<double> right_hand_side(static_cast<std::size_t>(model_->layout().owned_count() * model_->components()));
-  statics::StaticSolver solver(*model_, end, work, options);
-  solver.equilibrium().right_hand_side(right_hand_side.data());
-  solver.free().require_balance(right_hand_side.data());
+  CrackedEquilibrium equilibrium(*model_, *state_, events.faces(), end, options);
 
   Outcome outcome;
   CrackPath& path = outcome.path.emplace();
@@ -105,7 +99,10 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
   const auto sample = [&](double factor) {
     outcome.measurement = meter_->measure(*state_, 0);
     mechanics::Balance& measured = outcome.measurement.balance;
-    if (factor > 0) balance.add(factor, measured.elastic_energy, work_of_supports());
+    const double pressed = events.faces().energy();
+    measured.elastic_energy += pressed;
+    measured.leapfrog_energy += pressed;
+    if (factor > 0) balance.add(factor, measured.elastic_energy, work_of_supports(), events.faces().bend());
     measured.load_factor = factor;
     measured.given = balance.work();
     measured.cracked = cracking()->energy_taken();
@@ -120,30 +117,9 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
   const double parted =
       1.5 * failure::CrackEvents::trace * static_cast<double>(std::max({cells[0], cells[1], cells[2]}));
 
-  int least = 0, extra = 0;
   double factor = 1, peak = 0;
   for (bool changed = true;;) {
-    // The right-hand side holds forces of prescribed motions, by springs that may be gone.
-    if (changed && path.events > 0) solver.equilibrium().right_hand_side(right_hand_side.data());
-    if (changed) {
-      const statics::SolveReport report = solver.improve(right_hand_side.data(), state_->displacement);
-      if (!outcome.solution) {
-        outcome.solution = report;
-      } else {
-        outcome.solution->iterations += report.iterations;
-        outcome.solution->relative_residual = report.relative_residual;
-        outcome.solution->solve_seconds += report.solve_seconds;
-        // The first solve with new levels tells what they cost.
-        if (least == 0) least = std::max(report.iterations, 1);
-        extra += std::max(report.iterations - least, 0);
-      }
-      if (extra > patience) {
-        solver.refresh();
-        ++path.hierarchies;
-        least = extra = 0;
-      }
-    }
-
+    if (changed) equilibrium.find();
     const double next = events.next();
     const bool over = !std::isfinite(next);
     if (!over) factor = next;
@@ -177,6 +153,8 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
     events.unload();
     loads.set(1);
   }
+  outcome.solution = equilibrium.report();
+  path.hierarchies = equilibrium.hierarchies();
   path.parted = events.parted();
   outcome.converged = true;
   state_->time = end;

@@ -140,14 +140,14 @@ void check_spacing(const Definition& definition, std::vector<std::string>& warni
   }
 }
 
-// Shear cracks stay closed, and closed cracks carry nothing in an equilibrium that follows cracks.
-void check_shear_in_equilibrium(const Definition& definition, std::vector<std::string>& warnings) {
+// An equilibrium knows no way along which faces could have slid.
+void check_friction_in_equilibrium(const Definition& definition, std::vector<std::string>& warnings) {
   if (!definition.cracks_in_equilibrium()) return;
   for (const model::MaterialDefinition& material : definition.materials)
-    if (material.cracks() && material.fracture->cohesion)
+    if (material.cracks() && material.fracture->residual_friction_angle != 0)
       warnings.push_back(fmt::format(
-          "material \"{}\" has a cohesion, but in equilibrium closed cracks carry neither pressure nor friction: cells "
-          "that shear under pressure lose all they carry; follow them in motion, or leave the cohesion out",
+          "material \"{}\" has a residual friction, which does not count in equilibrium: closed cracks carry pressure "
+          "there and slide freely; follow them in motion, or leave residual_friction_angle out",
           material.name));
 }
 
@@ -160,7 +160,7 @@ std::vector<std::string> warnings(const model::Model& model) {
   check_held_loads(model, warnings);
   check_unused(model.definition, warnings);
   check_spacing(model.definition, warnings);
-  check_shear_in_equilibrium(model.definition, warnings);
+  check_friction_in_equilibrium(model.definition, warnings);
   return warnings;
 }
 

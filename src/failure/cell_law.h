@@ -40,6 +40,7 @@ class CellLaw {
   /// The crack that this strain leads to in a cell without one, when it has grown or shrunk in proportion until the
   /// equivalent strain is at the limit.
   Crack ahead(const Tensor6& strain, double strength_factor) const;
+  double youngs_modulus() const { return youngs_modulus_; }
   /// Equivalent strain.
   double equivalent(const Tensor6& strain) const;
   /// How a crack softens its cell.

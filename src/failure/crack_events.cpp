@@ -19,7 +19,7 @@ constexpr double least_strength = 4e-3;
 }  // namespace
 
 CrackEvents::CrackEvents(Cracking& cracking, model::Model& model, model::State& state)
-    : cracking_(cracking), model_(model), state_(state) {
+    : cracking_(cracking), model_(model), state_(state), faces_(cracking, model, state) {
   state_.face_force.zero();
   for (const std::int64_t n : cracking_.cracked_) set_factor(n, cracking_.load(n).damage);
 }
@@ -30,8 +30,9 @@ void CrackEvents::set_factor(std::int64_t n, double damage) {
   cracking_.limit_.component(0)[n] = static_cast<float>(never);
 }
 
-// Energy that damage takes from a cell between two events, u.K u'/2 with the displacements at both, for each unit of
-// the factor at the second [J/m^3]. From squares of sums and differences; both are made alike in size first.
+// Energy that damage takes from a cell between two events, u.K u'/2 with the displacements at both, less what its
+// closed faces take over, for each unit of the factor at the second [J/m^3]. The first from squares of sums and
+// differences; both are made alike in size before.
 double CrackEvents::gain(const Loss& loss) const {
   const mechanics::CellMotion now = mechanics::cell_motion(model_.lattice, state_.displacement, loss.cell);
   const auto square = [](const mechanics::CellMotion& motion) {
@@ -49,7 +50,9 @@ double CrackEvents::gain(const Loss& loss) const {
     }
     return mechanics::cell_state(model_.lattice, motion, loss.cell).energy;
   };
-  return loss.damage * (energy(1) - energy(-1)) / (4 * scale * model_.lattice.factor_of(loss.cell));
+  const double springs = (energy(1) - energy(-1)) / (4 * scale * model_.lattice.factor_of(loss.cell));
+  const double faces = 0.5 * cracking_.law(loss.cell).youngs_modulus() * loss.pressed * faces_.pressed(loss.cell);
+  return loss.damage * (springs - faces);
 }
 
 void CrackEvents::consider(std::int64_t n, double factor) {
@@ -124,6 +127,7 @@ void CrackEvents::go(double factor) {
   losses_.clear();
   factor_ = factor;
   scale(factor);
+  faces_.springs().update(state_.displacement);
 }
 
 bool CrackEvents::soften() {
@@ -131,8 +135,10 @@ bool CrackEvents::soften() {
   // In the order of cells in memory, by whatever way they were found.
   std::ranges::sort(candidates_, {}, &Candidate::cell);
   const std::size_t before = cracking_.cracked_.size();
+  faces_.note();
   for (const Candidate& candidate : candidates_) soften(candidate.cell);
   if (cracking_.cracked_.size() != before) std::sort(cracking_.cracked_.begin(), cracking_.cracked_.end());
+  faces_.restore();
   return model_.communicator.any(!losses_.empty());
 }
 
@@ -153,9 +159,11 @@ void CrackEvents::soften(std::int64_t n) {
   if (1 - before < model::parted && crack.damage >= model::parted)
     state_.crack.component(Cracking::moment)[n] = state_.time;
   set_factor(n, crack.damage);
-  losses_.push_back(
-      {n, before - std::max(after, trace), mechanics::cell_motion(model_.lattice, state_.displacement, n)});
-  if (fresh) cracking_.cracked_.push_back(n);
+  losses_.push_back({n, before - std::max(after, trace), mechanics::cell_motion(model_.lattice, state_.displacement, n),
+                     std::min(along(strain, crack.normal), 0.0)});
+  if (!fresh) return;
+  cracking_.cracked_.push_back(n);
+  faces_.note(n);
 }
 
 void CrackEvents::unload() {

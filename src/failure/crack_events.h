@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "failure/cracking.h"
+#include "failure/closed_faces.h"
 
 namespace koshi::failure {
 
@@ -15,8 +15,8 @@ class CrackEvents {
   /// Stiffness that broken cells keep, over that of whole ones. Nodes between them hang on it.
   static constexpr double trace = 1e-6;
 
-  /// `cracking` is that of the model and the state, made or restored before. Closed faces carry nothing from then on,
-  /// and cells that have cracked through keep a trace of their springs, which holds the nodes on them.
+  /// `cracking` is that of the model and the state, made or restored before. Closed cracks carry what faces() say from
+  /// then on, and cells that have cracked through keep a trace of their springs, which holds the nodes on them.
   CrackEvents(Cracking& cracking, model::Model& model, model::State& state);
 
   /// The factor on the state's displacements (ghosts up to date) at which something happens next (collective):
@@ -32,6 +32,9 @@ class CrackEvents {
   /// Goes back to the unit load, for the next solve (collective).
   void unload();
 
+  /// Which cracks are closed; to be looked at after each solve.
+  ClosedFaces& faces() { return faces_; }
+
   /// Cells that have cracked, and those that have cracked through (collective).
   std::int64_t cracked() const { return count(0); }
   std::int64_t parted() const { return count(1); }
@@ -42,6 +45,7 @@ class CrackEvents {
     std::int64_t cell;
     double damage;                 ///< lost
     mechanics::CellMotion motion;  ///< at the event
+    double pressed;                ///< strain across the crack at the event, if that pressed it, else 0
     double gain = 0;               ///< energy [J/m^3] that this takes, for each unit of the next event's factor
   };
   struct Candidate {
@@ -60,6 +64,7 @@ class CrackEvents {
   Cracking& cracking_;
   model::Model& model_;
   model::State& state_;
+  ClosedFaces faces_;
   std::vector<Loss> losses_;  ///< ascending
   std::vector<Candidate> candidates_;
   double least_ = 0;    ///< factor of the first candidate

@@ -48,6 +48,7 @@ class Cracking {
 
  private:
   friend class CrackEvents;  // of the same cells, in equilibrium
+  friend class ClosedFaces;
   /// Fills mean_ and radius_ for the row of cells (j, k), from i = -1 on.
   void look_at_row(std::int64_t j, std::int64_t k);
   void follow_row(std::int64_t j, std::int64_t k, double dt);

@@ -63,9 +63,19 @@ void Equilibrium::to_field(const double* x, lattice::Field<double>& field) const
 }
 
 template <class F>
+void Equilibrium::for_each_row(const lattice::Field<double>& u, F&& use) {
+  const bool faces = faces_ != nullptr && !faces_->springs().empty();
+  if (faces) faces_->update(u);
+  kernel_.for_each_row(u, [&](std::int64_t j, std::int64_t k, double* const* force) {
+    if (faces) faces_->add(j, k, force);
+    use(j, k, force);
+  });
+}
+
+template <class F>
 void Equilibrium::forces(const lattice::Field<double>& u, double* b, F&& add_loads) {
   const std::int64_t count = model_.layout().owned()[0];
-  kernel_.for_each_row(u, [&](std::int64_t j, std::int64_t k, double* const* force) {
+  for_each_row(u, [&](std::int64_t j, std::int64_t k, double* const* force) {
     add_loads(j, k, force);
     for (int c = 0; c < components_; ++c) {
       double* const to = b + c * node_count_ + unknown_of(j, k);
@@ -94,7 +104,7 @@ void Equilibrium::apply(const double* x, double* y) {
   for (const Prescribed& p : prescribed_) work_.component(p.component)[p.node] = 0;
   model_.lattice.halo->exchange(work_);
   const std::int64_t count = model_.layout().owned()[0];
-  kernel_.for_each_row(work_, [&](std::int64_t j, std::int64_t k, double* const* force) {
+  for_each_row(work_, [&](std::int64_t j, std::int64_t k, double* const* force) {
     for (int c = 0; c < components_; ++c) {
       const double factor = -1 / scale(c);
       double* const to = y + c * node_count_ + unknown_of(j, k);

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "koshi/model.h"
+#include "mechanics/face_springs.h"
 #include "mechanics/force_kernel.h"
 #include "statics/fixed_nodes.h"
 
@@ -32,9 +33,15 @@ class Equilibrium {
   /// The unknowns of a field of displacements, zero where they are prescribed.
   void gather(const lattice::Field<double>& displacement, double* x) const;
 
+  /// Springs across cells that count beside those of the lattice from now on; they must outlive this.
+  void add(mechanics::FaceSprings& faces) { faces_ = &faces; }
+
   const FixedNodes& fixed() const { return fixed_; }
 
  private:
+  /// Calls use(j, k, force) for every row with its forces -K u.
+  template <class F>
+  void for_each_row(const lattice::Field<double>& u, F&& use);
   /// b = -K u and what add_loads(j, k, force) adds to row (j, k).
   template <class F>
   void forces(const lattice::Field<double>& u, double* b, F&& add_loads);
@@ -50,6 +57,7 @@ class Equilibrium {
   double t_, half_d_;
   lattice::Field<double>& work_;
   mechanics::ForceKernel kernel_;
+  mechanics::FaceSprings* faces_ = nullptr;
   FixedNodes fixed_;
   struct Prescribed {
     std::int64_t unknown, node;

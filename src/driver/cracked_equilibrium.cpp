@@ -1,0 +1,67 @@
+#include "driver/cracked_equilibrium.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace koshi::driver {
+namespace {
+
+// Levels of the solver are made anew when old ones have cost so many iterations more than new ones would have.
+constexpr int patience = 60;
+// Cracks close and open until all of them are as the displacements say; that takes a few rounds.
+constexpr int most_rounds = 100;
+
+}  // namespace
+
+CrackedEquilibrium::CrackedEquilibrium(model::Model& model, model::State& state, failure::ClosedFaces& faces, double t,
+                                       const statics::StaticOptions& options)
+    : state_(state),
+      faces_(faces),
+      work_(model.layout(), model.components()),
+      right_hand_side_(static_cast<std::size_t>(model.layout().owned_count() * model.components())),
+      solver_(model, t, work_, options) {
+  solver_.equilibrium().right_hand_side(right_hand_side_.data());
+  solver_.free().require_balance(right_hand_side_.data());
+  solver_.equilibrium().add(faces.springs());
+  faces.levels_are_made();
+}
+
+void CrackedEquilibrium::find() {
+  int rounds = 0;
+  do {
+    if (++rounds > most_rounds)
+      throw RunError(
+          fmt::format("cracks still close and open after {} equilibria of the same springs; a smaller "
+                      "tolerance than {:.1e} or finer cells may help",
+                      most_rounds, report_.relative_residual));
+    solve();
+  } while (faces_.look());
+}
+
+void CrackedEquilibrium::solve() {
+  if (faces_.ask_for_levels()) make_levels();
+  // It holds forces of prescribed motions, by springs that may be gone.
+  solver_.equilibrium().right_hand_side(right_hand_side_.data());
+  const statics::SolveReport report = solver_.improve(right_hand_side_.data(), state_.displacement);
+  if (first_) {
+    report_ = report;
+    first_ = false;
+    return;
+  }
+  report_.iterations += report.iterations;
+  report_.relative_residual = report.relative_residual;
+  report_.solve_seconds += report.solve_seconds;
+  // The first solve with new levels tells what they cost.
+  if (least_ == 0) least_ = std::max(report.iterations, 1);
+  extra_ += std::max(report.iterations - least_, 0);
+  if (extra_ > patience) make_levels();
+}
+
+void CrackedEquilibrium::make_levels() {
+  faces_.make_levels([this] { solver_.refresh(); });
+  ++hierarchies_;
+  least_ = extra_ = 0;
+}
+
+}  // namespace koshi::driver

@@ -1,0 +1,46 @@
+// Springs across single cells, beside those of the lattice: what closed cracks carry in equilibrium.
+#pragma once
+
+#include <vector>
+
+#include "koshi/spring_lattice.h"
+#include "koshi/vector3.h"
+
+namespace koshi::mechanics {
+
+/// Resists the strain e = n.eps.n of a cell along one direction with the energy d^3 stiffness e^2/2.
+struct FaceSpring {
+  std::int64_t cell;  ///< index of its lowest corner
+  Vec3 normal;        ///< n, unit vector
+  double stiffness;   ///< [Pa]
+};
+
+/// A set of such springs. One that every rank has of a cell whose corners it owns gives the same forces on any ranks.
+class FaceSprings {
+ public:
+  /// `force`: memory for three components, zero; the forces of the last update() from then on. Both outlive this.
+  FaceSprings(const model::SpringLattice& body, lattice::Field<double>& force);
+
+  /// Takes other springs, by cell in ascending order; the forces are zero until the next update().
+  void set(std::vector<FaceSpring> springs);
+  const std::vector<FaceSpring>& springs() const { return springs_; }
+
+  /// Forces at displacements whose ghosts are up to date.
+  void update(const lattice::Field<double>& u);
+  /// Adds the forces on row (j, k) of owned nodes, force[c] pointing to node i = 0.
+  void add(std::int64_t j, std::int64_t k, double* const* force) const;
+
+ private:
+  void clear();
+
+  const model::SpringLattice& body_;
+  lattice::Field<double>& force_;
+  std::vector<FaceSpring> springs_;
+  std::vector<char> touched_;  ///< rows of owned nodes that a spring reaches
+};
+
+/// n.eps.n of the strain of a cell.
+double strain_along(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell,
+                    const Vec3& normal);
+
+}  // namespace koshi::mechanics
