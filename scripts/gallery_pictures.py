@@ -291,6 +291,26 @@ def rock_compression(maker):
     return side_by_side(body, drawn(fig))
 
 
+def brazilian_disc(maker):
+    """Where the disc has cracked through and when, beside the load event by event."""
+    results = Results(maker.run("13_brazilian_disc"))
+    fig, (body, curve) = plt.subplots(1, 2, figsize=(WIDTH / 100, HEIGHT / 100), dpi=100, layout="constrained")
+    event, x, y, _ = 1e3 * np.array(results.crack()).T
+    points = body.scatter(x, y, c=1e-3 * event, s=26, marker="s", cmap="viridis")
+    body.add_patch(plt.Circle((0, 0), 50, fill=False, color="#5a6675"))
+    for side in (-1, 1):
+        body.annotate("", (0, side * 51), (0, side * 66), arrowprops={"width": 5, "color": "#5a6675"})
+    body.set(aspect="equal", xlim=(-55, 55), ylim=(-68, 68), title="cells cracked through")
+    body.axis("off")
+    fig.colorbar(points, ax=body, shrink=0.6, label="event")
+    nominal = 2e-3 / (np.pi * 0.1 * 0.002)
+    curve.plot(nominal * np.array(results.history("load factor")), color=BLUE, label="Koshi, all events")
+    curve.axhline(5, label="$f_t$", **THEORY)
+    curve.set(xlabel="event", ylabel="load as 2P/(πDt) [MPa]", xlim=(0, None), ylim=(0, 6), title="Brazilian disc")
+    curve.legend(loc="upper right")
+    return drawn(fig)
+
+
 def pressurised_tube(maker):
     """Hoop stress in the middle of the tube's length: a map, and of every cell against its distance from the axis."""
     simulation = maker.simulation("40_pressurised_tube")
@@ -376,12 +396,13 @@ def kalthoff_winkler(maker):
     return drawn(fig)
 
 
-PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
-            "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
-            "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
-            "10_tunnel": tunnel, "11_notched_beam": notched_beam, "12_l_panel": l_panel, "20_kalthoff_winkler": kalthoff_winkler,
-            "21_rock_compression": rock_compression, "30_sandstone": sandstone,
-            "40_pressurised_tube": pressurised_tube, "50_tuning_fork": tuning_fork}
+PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper,
+            "03_cantilever_exact": cantilever_exact, "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar,
+            "06_wave_in_bar": wave_in_bar, "07_porous_cube": porous_cube, "08_gravity_column": gravity_column,
+            "09_beam_vibration": beam_vibration, "10_tunnel": tunnel, "11_notched_beam": notched_beam, "12_l_panel": l_panel,
+            "13_brazilian_disc": brazilian_disc, "20_kalthoff_winkler": kalthoff_winkler,
+            "21_rock_compression": rock_compression, "30_sandstone": sandstone, "40_pressurised_tube": pressurised_tube,
+            "50_tuning_fork": tuning_fork}
 
 
 def main():
