@@ -167,8 +167,7 @@ TEST_F(CrackingRuns, EquilibriaEndWhenToldToAndTellWhatBroke) {
   EXPECT_THAT(file("one/cracks.vtp"),
               HasSubstr("NumberOfPolys=\"" + std::to_string(cracks.at("cells").get<int>()) + "\""));
 
-  const Ended face =
-      koshi(events + "--set analysis='{type=\"static\", stop_when={face=\"y-max\"}}' --out face --ranks 2");
+  const Ended face = koshi(events + "--set analysis='{type=\"static\", stop_when={face=\"y-max\"}}' --out face");
   ASSERT_EQ(face.code, 0) << face.error;
   EXPECT_THAT(face.output, HasSubstr("a crack has reached the face y-max"));
 }
