@@ -218,6 +218,37 @@ struct DampingDefinition {
   bool operator==(const DampingDefinition&) const = default;
 };
 
+/// Components xx, yy, zz, yz, xz, xy of a mean strain, those of the tensor: a shear is half of the engineering one.
+struct MeanStrain {
+  std::array<std::optional<double>, 6> components{};  ///< unset: not told
+  bool operator==(const MeanStrain&) const = default;
+};
+
+/// Components xx, yy, zz, yz, xz, xy of a mean stress.
+struct MeanStress {
+  std::array<std::optional<double>, 6> components{};  ///< [Pa]; unset: not told
+  bool operator==(const MeanStress&) const = default;
+};
+
+/// [macroscopic]: strain of a periodic body as a whole. A component of which neither the mean strain nor the mean
+/// stress is given has no strain.
+struct MacroscopicDefinition {
+  std::optional<MeanStrain> strain{};  ///< of the components that are given
+  std::optional<MeanStress> stress{};  ///< over the box, voids too; its components have the strain that leads to it
+  History history{};                   ///< factor on both
+  /// Mean stress that component c is to have [Pa]; unset: its strain is given.
+  std::optional<double> stress_of(std::size_t c) const {
+    if (!stress) return std::nullopt;
+    return stress->components[c];
+  }
+  /// Mean strain that component c is to have, where no stress is given; unset: zero.
+  std::optional<double> strain_of(std::size_t c) const {
+    if (!strain) return std::nullopt;
+    return strain->components[c];
+  }
+  bool operator==(const MacroscopicDefinition&) const = default;
+};
+
 /// [analysis.stop_when]: ends the run at the first sample of the history at which one of its conditions holds.
 struct StopDefinition {
   std::string probe;         ///< of a reaction; empty: no such condition
@@ -301,18 +332,19 @@ class Places {
 
 /// A whole case.
 struct Definition {
-  std::string title;                            ///< for people
-  LatticeDefinition lattice;                    ///< [lattice]
-  BodyDefinition body;                          ///< [body]
-  std::vector<MaterialDefinition> materials;    ///< [material.NAME]; index 1 in a cell is the first
-  std::vector<RegionDefinition> regions;        ///< [[region]], later ones win
-  std::vector<SelectionDefinition> selections;  ///< [[selection]]
-  std::vector<CrackDefinition> pre_cracks;      ///< [[crack]]
-  std::vector<BoundaryDefinition> boundaries;   ///< [[boundary]]
-  std::vector<LoadDefinition> loads;            ///< [[load]]
-  AnalysisDefinition analysis;                  ///< [analysis]
-  std::vector<ProbeDefinition> probes;          ///< [[probe]]
-  OutputDefinition output;                      ///< [output]
+  std::string title;                                   ///< for people
+  LatticeDefinition lattice;                           ///< [lattice]
+  BodyDefinition body;                                 ///< [body]
+  std::vector<MaterialDefinition> materials;           ///< [material.NAME]; index 1 in a cell is the first
+  std::vector<RegionDefinition> regions;               ///< [[region]], later ones win
+  std::vector<SelectionDefinition> selections;         ///< [[selection]]
+  std::vector<CrackDefinition> pre_cracks;             ///< [[crack]]
+  std::vector<BoundaryDefinition> boundaries;          ///< [[boundary]]
+  std::vector<LoadDefinition> loads;                   ///< [[load]]
+  std::optional<MacroscopicDefinition> macroscopic{};  ///< [macroscopic]; unset: periodic bodies keep their size
+  AnalysisDefinition analysis;                         ///< [analysis]
+  std::vector<ProbeDefinition> probes;                 ///< [[probe]]
+  OutputDefinition output;                             ///< [output]
 
   Places places;                ///< for messages
   std::string directory = ".";  ///< relative file names (image, stl, start_from) are looked up here

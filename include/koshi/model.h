@@ -1,6 +1,7 @@
 // The model: a validated, frozen definition on the ranks of a run. Only State changes during a run.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -119,6 +120,9 @@ struct State {
   lattice::Field<double> face_force;
   /// In the same case, of nodes: energy that loads and supports gave, and that damping took [J].
   lattice::Field<double> work;
+  /// Mean strain of a periodic body (tensor components xx, yy, zz, yz, xz, xy), which the displacements have: across a
+  /// period L they go on as u + E L.
+  std::array<double, 6> mean_strain{};
   double peak_force = 0;  ///< largest reaction so far of the probe that analysis.stop_when looks at [N]
   double time = 0;        ///< [s]
   std::int64_t step = 0;  ///< explicit steps so far

@@ -1,7 +1,9 @@
 // Equilibrium without time stepping.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,9 +20,17 @@ struct StaticOptions {
   std::function<bool()> stop;  ///< called after each iteration by all ranks; true on all: give up; empty: never
 };
 
+/// What a periodic body does as a whole; tensor components xx, yy, zz, yz, xz, xy.
+struct Macroscopic {
+  std::array<double, 6> strain{};  ///< mean strain
+  std::array<double, 6> stress{};  ///< mean stress over the box, voids too [Pa]
+  int solves = 0;                  ///< that it took to find the strain that the mean stress needs
+};
+
 /// How it went.
 struct SolveReport {
-  int iterations = 0;                       ///< of conjugate gradients
+  int iterations = 0;                       ///< of conjugate gradients, of all solves
+  std::optional<Macroscopic> macroscopic;   ///< unset without a macroscopic strain
   double relative_residual = 0;             ///< at the end, over the right-hand side
   std::int64_t unknowns = 0;                ///< free components of all nodes
   int levels = 0;                           ///< of the multigrid hierarchy
@@ -38,10 +48,10 @@ struct SolveReport {
 /// The time [s] at which loads and motions are taken: when all histories and ramps have ended, or the duration.
 double end_time(const model::Definition& definition);
 
-/// Fills the state's displacements with the equilibrium under the loads at the end of their histories; velocities are
-/// zero (collective). Throws InputError when the loads move a part that nothing holds,
-/// RunError when the iteration does not converge; displacements are not defined then. A solve that is stopped leaves
-/// those of its last iteration.
+/// Fills the state's displacements with the equilibrium under the loads at the end of their histories and the
+/// macroscopic strain, which it finds where its stress is given; velocities are zero (collective). Throws InputError
+/// when the loads move a part that nothing holds, RunError when the iteration does not converge or no strain leads to
+/// the stress; displacements are not defined then. A solve that is stopped leaves those of its last iteration.
 SolveReport solve_static(const model::Model& model, model::State& state, const StaticOptions& options);
 
 }  // namespace koshi::statics

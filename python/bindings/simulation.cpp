@@ -37,6 +37,13 @@ void raise_interrupt() {
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
 }
 
+py::object macroscopic_of(const driver::Outcome& outcome) {
+  if (!outcome.solution || !outcome.solution->macroscopic) return py::none();
+  const statics::Macroscopic& whole = *outcome.solution->macroscopic;
+  return py::dict(py::arg("strain") = py::array_t<double>(6, whole.strain.data()),
+                  py::arg("stress") = py::array_t<double>(6, whole.stress.data()));
+}
+
 py::list modes_of(const model::Model& model, const driver::Outcome& outcome) {
   py::list list;
   if (!outcome.modes) return list;
@@ -85,7 +92,7 @@ py::dict run_to_end(Simulation& simulation, const std::optional<std::function<bo
       py::arg("residuals") = py::array_t<double>(static_cast<py::ssize_t>(residuals.size()), residuals.data()),
       py::arg("stopped") = outcome.stopped, py::arg("seconds") = outcome.seconds,
       py::arg("measurement") = measured(simulation.model(), outcome.measurement),
-      py::arg("modes") = modes_of(simulation.model(), outcome));
+      py::arg("macroscopic") = macroscopic_of(outcome), py::arg("modes") = modes_of(simulation.model(), outcome));
 }
 
 py::array field(Simulation& simulation, const std::string& name) {

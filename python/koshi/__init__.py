@@ -19,6 +19,7 @@ from .case import (
     InputError,
     Lattice,
     Load,
+    Macroscopic,
     Material,
     Output,
     Probe,
@@ -27,7 +28,7 @@ from .case import (
     Selection,
     load,
 )
-from .simulation import Measurement, Mode, Result, Simulation, run
+from .simulation import MeanState, Measurement, Mode, Result, Simulation, run
 from ._koshi import __version__
 
 __all__ = [
@@ -39,7 +40,9 @@ __all__ = [
     "InputError",
     "Lattice",
     "Load",
+    "Macroscopic",
     "Material",
+    "MeanState",
     "Measurement",
     "Mode",
     "Output",

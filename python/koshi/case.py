@@ -233,6 +233,18 @@ class Load:
 
 
 @dataclass
+class Macroscopic:
+    """What a periodic body does as a whole; components xx, yy, zz, yz, xz, xy, zero strain where nothing is given."""
+
+    strain: Mapping[str, float] | None = None
+    """mean strain, components of the tensor"""
+    stress: Mapping[str, Quantity] | None = None
+    """mean stress over the box, voids too [Pa]; its components have the strain that leads to it"""
+    history: Sequence[tuple[Quantity, float]] | None = None
+    """factor on both: pairs (time [s], factor)"""
+
+
+@dataclass
 class Analysis:
     """What is computed."""
 
@@ -334,6 +346,8 @@ class Case:
     """prescribed motions"""
     load: list[Load] = field(default_factory=list)
     """forces"""
+    macroscopic: Macroscopic | None = None
+    """mean strain and stress of a periodic body, default none"""
     analysis: Analysis = field(default_factory=Analysis)
     """what is computed"""
     probe: list[Probe] = field(default_factory=list)
@@ -358,6 +372,8 @@ def load(file: str | os.PathLike, overrides: Sequence[str] = ()) -> Case:
     lists = {"region": Region, "crack": Crack, "selection": Selection, "boundary": Boundary, "load": Load, "probe": Probe}
     parts: dict = {"material": {name: Material(**m) for name, m in values["material"].items()}}
     parts |= {name: cls(**values[name]) for name, cls in tables.items()}
+    if "macroscopic" in values:
+        parts["macroscopic"] = Macroscopic(**values["macroscopic"])
     parts |= {name: [cls(**entry) for entry in values.get(name, [])] for name, cls in lists.items()}
     if parts["body"].materials is not None:
         parts["body"].materials = {int(value): name for value, name in parts["body"].materials.items()}

@@ -45,6 +45,16 @@ class Mode:
 
 
 @dataclass(frozen=True)
+class MeanState:
+    """Of a periodic body as a whole; components xx, yy, zz, yz, xz, xy."""
+
+    strain: np.ndarray
+    """components of the tensor"""
+    stress: np.ndarray
+    """over the box, voids too [Pa]"""
+
+
+@dataclass(frozen=True)
 class Result:
     """How a run went."""
 
@@ -64,6 +74,8 @@ class Result:
     """at the end; empty for modes"""
     modes: list[Mode]
     """by frequency, of an analysis of type "modes" """
+    macroscopic: MeanState | None
+    """mean strain and stress of a case with [macroscopic]"""
 
 
 class Simulation:
@@ -147,7 +159,9 @@ class Simulation:
         outcome = self._core.run(poll, None if out is None else os.fspath(out), progress, list(petsc_options))
         measurement = Measurement(**outcome.pop("measurement"))
         modes = [Mode(**mode) for mode in outcome.pop("modes")]
-        return Result(measurement=measurement, modes=modes, **outcome)
+        whole = outcome.pop("macroscopic")
+        macroscopic = None if whole is None else MeanState(**whole)
+        return Result(measurement=measurement, modes=modes, macroscopic=macroscopic, **outcome)
 
     def measure(self) -> Measurement:
         """Balance and probes of the present state."""

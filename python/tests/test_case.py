@@ -19,7 +19,7 @@ def test_dataclasses_have_the_keys_of_the_input():
     schema = json.loads(subprocess.run([PROGRAM, "schema"], capture_output=True, text=True, check=True).stdout)
     tables = {"lattice": koshi.Lattice, "body": koshi.Body, "material": koshi.Material, "region": koshi.Region, "crack": koshi.Crack,
               "boundary": koshi.Boundary, "load": koshi.Load, "analysis": koshi.Analysis, "probe": koshi.Probe,
-              "output": koshi.Output, "selection": koshi.Selection}  # fmt: skip
+              "output": koshi.Output, "selection": koshi.Selection, "macroscopic": koshi.Macroscopic}  # fmt: skip
     assert set(schema["properties"]) == {f.name for f in dataclasses.fields(koshi.Case)}
     for name, cls in tables.items():
         table = schema["properties"][name]

@@ -204,6 +204,28 @@ def voxels(case):
     return image
 
 
+def test_a_macroscopic_strain_has_its_stress():
+    # Uniaxial stress of 2 MPa along z, no shear: strains 2e6 / 1e9 and -0.25 times that.
+    zero = {c: 0 for c in ("xx", "yy", "yz", "xz", "xy")}
+    case = koshi.Case(
+        koshi.Lattice(spacing=1e-3),
+        koshi.Body(size=(3e-3, 2e-3, 4e-3), material="rock", periodic=["x", "y", "z"]),
+        {"rock": koshi.Material(1e9, 0.25, 2000)},
+        macroscopic=koshi.Macroscopic(stress={"zz": "2 MPa", **zero}),
+    )
+    simulation = koshi.Simulation(case)
+    result = simulation.run()
+    assert result.macroscopic.strain == pytest.approx([-5e-4, -5e-4, 2e-3, 0, 0, 0], rel=1e-9, abs=1e-12)
+    assert result.macroscopic.stress == pytest.approx([0, 0, 2e6, 0, 0, 0], rel=1e-9, abs=1e-3)
+    # Displacements E x from the lower corner.
+    x, y, z = simulation.coordinates
+    assert simulation.displacement[2] - 2e-3 * z[:, None, None] == pytest.approx(np.zeros((4, 2, 3)), abs=1e-15)
+    assert koshi.run(beam(analysis=koshi.Analysis())).macroscopic is None
+    with pytest.raises(koshi.InputError, match="macroscopic strain without periodic directions"):
+        case.body.periodic = None
+        koshi.Simulation(case)
+
+
 def test_voxel_image_from_an_array(case):
     image = voxels(case)
     simulation = koshi.Simulation(case)

@@ -35,6 +35,9 @@ constexpr const char* time_step_name = "time_step";
 // 1 among them: the checkpoint has the fields of cracks.
 constexpr const char* cracks_name = "cracks";
 
+// 1 among them: displacements of a periodic body under a mean strain.
+constexpr const char* mean_strain_name = "mean_strain";
+
 // Largest reaction that analysis.stop_when has seen.
 constexpr const char* peak_force_name = "peak_force";
 
@@ -144,6 +147,7 @@ void Checkpoints::write_to(const std::filesystem::path& directory, model::State&
   if (state.time_step > 0) info.scalars[time_step_name] = state.time_step;
   if (state.crack.components() != 0) info.scalars[cracks_name] = 1;
   if (state.peak_force > 0) info.scalars[peak_force_name] = state.peak_force;
+  if (state.mean_strain != std::array<double, 6>{}) info.scalars[mean_strain_name] = 1;
   const auto fields = extra_fields(state);
   io::write_checkpoint(directory, model_, state, info, fields);
 }
@@ -151,6 +155,11 @@ void Checkpoints::write_to(const std::filesystem::path& directory, model::State&
 void start_from(const std::filesystem::path& directory, const model::Model& model, model::State& state) {
   // Its own text is accepted: the case may differ, the lattice is still compared.
   const io::CheckpointInfo header = io::read_checkpoint_header(directory, model.communicator);
+  if (header.scalars.contains(mean_strain_name))
+    throw InputError(model.definition.places.find("analysis.start_from"),
+                     fmt::format("{} holds a periodic body under a macroscopic strain, which no run can go on from; "
+                                 "start from a body that a load strained",
+                                 directory.native()));
   // Cracks stay; a body at rest so far, or an equilibrium, has none.
   const bool cracked = header.scalars.contains(cracks_name);
   if (cracked && state.crack.components() == 0)

@@ -2,9 +2,9 @@
 
 #include "driver/cracked_cells.h"
 #include "dynamics/orientation.h"
-#include "lattice/halo.h"
 #include "mechanics/cell_stress.h"
 #include "mechanics/measure.h"
+#include "mechanics/uniform_strain.h"
 
 namespace koshi::driver {
 namespace {
@@ -52,7 +52,7 @@ Field<double> euler_angles(const model::Model& model, const Field<double>& orien
 
 FieldSet::FieldSet(const std::vector<std::string>& names, const model::Model& model, model::State& state,
                    mechanics::Meter& meter) {
-  model.lattice.halo->exchange(state.displacement);
+  mechanics::exchange_displacements(model, state.mean_strain, state.displacement);
   for (const std::string& name : names) add(name, model, state, meter);
 }
 
@@ -64,11 +64,11 @@ void FieldSet::add(const std::string& name, const model::Model& model, model::St
     Field<double>& kept = computed_.back();
     fields_.push_back({name, &kept, 0, kept.components(), std::move(components), cells});
   };
-  if (name == "displacement") fields_.push_back({name, &state.displacement, 0, 3, vector_names, false});
+  if (name == "displacement") fields_.push_back({name, &state.displacement, 0, 3, vector_names, false, true});
   if (name == "velocity") fields_.push_back({name, &state.velocity, 0, 3, vector_names, false});
   if (name == "rotation") {
     if (rotational)
-      fields_.push_back({name, &state.displacement, 3, 3, vector_names, false});
+      fields_.push_back({name, &state.displacement, 3, 3, vector_names, false, true});
     else
       computed(fitted_rotation(model, u), vector_names, false);
   }

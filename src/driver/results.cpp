@@ -64,6 +64,20 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
   return entry;
 }
 
+// Mean strain and stress; null for strains across directions without a period, which have no mean.
+Json macroscopic(const model::Model& model, const statics::SolveReport& solution) {
+  Json strain = Json::object(), stress = Json::object();
+  const auto names = mechanics::component_names(model::ProbeDefinition::Quantity::strain);
+  const auto& periodic = model.lattice.grid.periodic;
+  constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  for (std::size_t c = 0; c < 6; ++c) {
+    const bool has_mean = periodic[axes[c][0]] && periodic[axes[c][1]];
+    strain[names[c]] = has_mean ? Json(solution.macroscopic->strain[c]) : Json();
+    stress[names[c]] = solution.macroscopic->stress[c];
+  }
+  return {{"strain", strain}, {"stress", stress}, {"solves", solution.macroscopic->solves}};
+}
+
 Json performance(const model::Model& model, const Outcome& outcome, const RunMemory& memory) {
   Json entry{{"seconds", outcome.seconds},
              {"ranks", model.communicator.size()},
@@ -135,6 +149,7 @@ nlohmann::ordered_json summary(const model::Model& model, const model::State& st
            {"probes", probes},
            {"energy", {{"elastic", end.balance.elastic_energy}, {"kinetic", end.balance.kinetic_energy}}},
            {"performance", performance(model, outcome, memory)}};
+  if (outcome.solution && outcome.solution->macroscopic) all["macroscopic"] = macroscopic(model, *outcome.solution);
   if (outcome.modes) {
     // A mode has no size, hence neither energy nor values at probes.
     all.erase("probes");
@@ -143,6 +158,20 @@ nlohmann::ordered_json summary(const model::Model& model, const model::State& st
   }
   return all;
 }
+
+namespace {
+
+std::string macroscopic_text(const statics::Macroscopic& macroscopic) {
+  const auto names = mechanics::component_names(model::ProbeDefinition::Quantity::strain);
+  std::string strain = "  mean strain:", stress = "  mean stress:";
+  for (std::size_t c = 0; c < 6; ++c) {
+    strain += fmt::format("{} {} = {:.6g}", c == 0 ? "" : ",", names[c], macroscopic.strain[c] + 0.0);
+    stress += fmt::format("{} {} = {:.6g}", c == 0 ? "" : ",", names[c], macroscopic.stress[c] + 0.0);
+  }
+  return strain + "\n" + stress + " Pa\n";
+}
+
+}  // namespace
 
 std::string headline(const model::Model& model, const Outcome& outcome) {
   std::string text;
@@ -160,6 +189,7 @@ std::string headline(const model::Model& model, const Outcome& outcome) {
                        outcome.seconds);
     if (!outcome.solution->free_motions.empty())
       text += fmt::format("  {}; the solution is without that motion\n", outcome.solution->free_motions);
+    if (outcome.solution->macroscopic) text += macroscopic_text(*outcome.solution->macroscopic);
   } else {
     text = fmt::format(
         "{} nodes, {} steps of {:.4g} s, unbalanced-force ratio {:.1e}, {:.3g} s ({:.3g} million node-steps/s)\n",

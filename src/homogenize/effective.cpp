@@ -11,25 +11,13 @@
 #include "homogenize/held.h"
 #include "homogenize/structure.h"
 #include "koshi/error.h"
+#include "mechanics/uniform_strain.h"
 #include "statics/static_solver.h"
-#include "statics/uniform_strain.h"
 
 namespace koshi::homogenize {
 namespace {
 
 using Matrix = std::array<std::array<double, 6>, 6>;
-
-// Residual that rounding leaves where the strain is uniform: displacements E x of n cells have an error of n ulps, and
-// the springs of a cell turn them into forces of their own stiffness.
-double rounding_residual(const model::Model& model) {
-  double most = 0;
-  for (const material::Elastic& elastic : model.materials)
-    most = std::max(most, elastic.youngs_modulus > 0 ? elastic.lambda() + 2 * elastic.mu() : 0.0);
-  const model::SpringLattice& body = model.lattice;
-  const auto cells = static_cast<double>(*std::max_element(body.grid.cells.begin(), body.grid.cells.end()));
-  const double d = body.grid.d;
-  return 1e-15 * cells * most * d * d * std::sqrt(static_cast<double>(model.node_count * model.components()));
-}
 
 // Volumes of the materials, and the mean density.
 void count_phases(const model::Model& model, Effective& effective) {
@@ -122,18 +110,18 @@ void solve_strains(const model::Model& model, const std::vector<std::size_t>& ca
   lattice::Field<double> u(model.layout(), model.components());
   std::vector<double> right_hand_side(static_cast<std::size_t>(model.layout().owned_count() * model.components()));
   statics::StaticSolver solver(model, 0, u, options);
-  const double rounding = rounding_residual(model);
+  const double rounding = mechanics::rounding_residual(model);
   for (const std::size_t j : cases) {
     mechanics::Tensor6 strain{};
     strain[j] = j < 3 ? 1 : 0.5;
     // The springs push the uniform strain out of balance; what is added to it restores it.
     u.zero();
-    statics::add_uniform_strain(model, strain, u);
+    mechanics::add_uniform_strain(model, strain, u);
     solver.equilibrium().right_hand_side(u, right_hand_side.data());
     effective.cases[j] = solver.solve(right_hand_side.data(), rounding, u);
     if (effective.cases[j].stopped) throw RunError("stopped before the six load cases were solved");
-    statics::add_uniform_strain(model, strain, u);
-    const mechanics::Tensor6 stress = statics::mean_stress(model, u);
+    mechanics::add_uniform_strain(model, strain, u);
+    const mechanics::Tensor6 stress = mechanics::mean_stress(model, u);
     for (std::size_t i = 0; i < 6; ++i) whole[i][j] = stress[i];
     means.add(j, u);
   }
@@ -183,6 +171,9 @@ void require_loadable_cell(const model::Definition& definition, Boundary boundar
   if (!definition.loads.empty())
     throw InputError(places.find("load[0]"),
                      "the six load cases of an effective stiffness are mean strains; remove the loads");
+  if (definition.macroscopic)
+    throw InputError(places.find("macroscopic"),
+                     "the six load cases of an effective stiffness are mean strains; remove [macroscopic]");
   if (definition.cuts())
     throw InputError(
         places.find("body.surface"),

@@ -41,7 +41,7 @@ void FieldWriter::write(double time, std::span<const FieldData> fields) {
   const Communicator& communicator = model_.communicator;
   const bool root = communicator.is_root();
   for (const FieldData& field : fields)
-    if (!field.on_cells) model_.lattice.halo->exchange(*field.values);
+    if (!field.on_cells && !field.ghosts_filled) model_.lattice.halo->exchange(*field.values);
 
   // The first sample of this run removes those of an earlier run, or those after the restart.
   const auto replace = communicator.any(root && !samples_.empty() && samples_.back().time == time);

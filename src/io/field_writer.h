@@ -22,6 +22,7 @@ struct FieldData {
   int components = 1;                        ///< number of components written
   std::vector<std::string> component_names;  ///< empty: VTK's own (0, 1, ...)
   bool on_cells = false;
+  bool ghosts_filled = false;  ///< by the caller, as those of a body under a mean strain have to be
 };
 
 /// Writes `fields/sample_000000.vti` ... into the output directory and `fields.pvd`, which names them all with their
@@ -35,7 +36,8 @@ class FieldWriter {
   FieldWriter(const model::Model& model, std::filesystem::path directory, std::optional<double> restart_time);
 
   /// Writes one sample (collective). A sample at the time of the last one replaces it. Exchanges the ghosts of fields
-  /// on nodes. Throws RunError with the system's reason on all ranks; earlier samples stay readable.
+  /// on nodes that are not filled. Throws RunError with the system's reason on all ranks; earlier samples stay
+  /// readable.
   void write(double time, std::span<const FieldData> fields);
 
  private:

@@ -6,6 +6,7 @@
 #include "base/exact_sum.h"
 #include "lattice/halo.h"
 #include "mechanics/cell_stress.h"
+#include "mechanics/uniform_strain.h"
 
 namespace koshi::mechanics {
 
@@ -35,7 +36,7 @@ struct ForceRow {
 template <class F>
 void Meter::for_each_row(model::State& state, F&& f) {
   const lattice::Layout& layout = model_.layout();
-  model_.lattice.halo->exchange(state.displacement);
+  exchange_displacements(model_, state.mean_strain, state.displacement);
   loads_.set_time(state.time);
   std::array<std::vector<double>, 6> external;
   std::array<double*, 6> external_row{};
@@ -95,9 +96,13 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
   const int components = model.components();
   const std::int64_t n = model.layout().index(0, j, k);
   const double d = model.lattice.grid.d;
+  const bool strained = state.mean_strain != Tensor6{};
   for (std::int64_t i = 0; i < model.layout().owned()[0]; ++i) {
     if (model.inertia.component(0)[n + i] == 0) continue;
     double elastic = 0, kinetic = 0, leapfrog = 0, residual = 0, reference = 0;
+    // The mean strain's part of the energy is the mean stress's, see add_mean_strain().
+    Vec3 uniform{};
+    if (strained) uniform = uniform_displacement(model, state.mean_strain, model.layout().global({i, j, k}));
     for (int c = 0; c < components; ++c) {
       const double force = forces.total(c, i);
       const double inertia = model.inertia.component(c < 3 ? 0 : 1)[n + i];
@@ -105,7 +110,8 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
       const bool prescribed = mask[static_cast<std::size_t>(i)] >> c & 1;
       const double gain = prescribed ? 0 : 0.5 * dt * force / inertia;
       const double v = state.velocity.component(c)[n + i] + gain;
-      elastic -= 0.5 * state.displacement.component(c)[n + i] * forces.springs[c][i];
+      const double u = state.displacement.component(c)[n + i] - (c < 3 ? uniform[static_cast<std::size_t>(c)] : 0);
+      elastic -= 0.5 * u * forces.springs[c][i];
       kinetic += 0.5 * inertia * v * v;
       leapfrog += 0.5 * inertia * (v - gain) * (v + gain);
       const double square = force * force / (lever * lever);
@@ -120,6 +126,29 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
   }
 }
 
+// A periodic body under a mean strain E and mean stress S: the energy of its springs is that of the periodic part of
+// the displacements and V E : S / 2. Forces are compared with those of S on the faces of the box, as if it was cut out.
+void add_mean_strain(const model::Model& model, const model::State& state, Balance& balance) {
+  if (state.mean_strain == Tensor6{}) return;
+  const Tensor6 stress = mean_stress(model, state.displacement);
+  const lattice::Grid& grid = model.lattice.grid;
+  double work = 0;
+  for (std::size_t c = 0; c < 6; ++c) work += (c < 3 ? 1 : 2) * state.mean_strain[c] * stress[c];
+  const double cell = grid.d * grid.d * grid.d;
+  const double energy = 0.5 * cell * static_cast<double>(grid.cell_count()) * work;
+  balance.elastic_energy += energy;
+  balance.leapfrog_energy += energy;
+  const auto& [xx, yy, zz, yz, xz, xy] = stress;
+  const std::array<Vec3, 3> tractions{Vec3{xx, xy, xz}, Vec3{xy, yy, yz}, Vec3{xz, yz, zz}};
+  double square = balance.reference * balance.reference;
+  for (std::size_t a = 0; a < 3; ++a) {
+    if (!grid.periodic[a]) continue;
+    const double nodes = 2 * static_cast<double>(grid.cell_count() / grid.cells[a]);
+    square += nodes * std::pow(grid.d, 4) * dot(tractions[a], tractions[a]);
+  }
+  balance.reference = std::sqrt(square);
+}
+
 }  // namespace
 
 Balance Meter::balance(model::State& state, double dt) {
@@ -128,7 +157,9 @@ Balance Meter::balance(model::State& state, double dt) {
   for_each_row(state, [&](auto j, auto k, const ForceRow& forces) {
     add_row(model_, state, dt, j, k, forces, mask.of(j, k), sums);
   });
-  return sums.total(model_.communicator);
+  Balance balance = sums.total(model_.communicator);
+  add_mean_strain(model_, state, balance);
+  return balance;
 }
 
 lattice::Field<double> Meter::reactions(model::State& state) {
@@ -166,6 +197,7 @@ Measurement Meter::measure(model::State& state, double dt) {
   });
 
   Measurement result{sums.total(model_.communicator), {}};
+  add_mean_strain(model_, state, result.balance);
   for (const model::Probe& probe : model_.probes) {
     std::vector<std::array<double, 6>> reactions;
     if (needs_reactions(probe))

@@ -11,12 +11,12 @@ namespace koshi::mechanics {
 
 /// Sums over the body, equal on all ranks and for any number of ranks.
 struct Balance {
-  double elastic_energy = 0;  ///< [J], -u.F/2
+  double elastic_energy = 0;  ///< [J], -u.F/2, and what a mean strain adds
   double kinetic_energy = 0;  ///< [J], at the time of the displacements
   /// [J], what central differences conserve instead of the sum of both, see docs/theory/04_motion.md (4.1).
   double leapfrog_energy = 0;
   double residual = 0;   ///< [N], root of the sum of squares of forces (and moments/d) on free components
-  double reference = 0;  ///< [N], the same of loads and reactions
+  double reference = 0;  ///< [N], the same of loads and reactions, and of a mean stress on the box
   // Where cells can crack, since the start:
   double given = 0;        ///< [J], work of loads and supports
   double damped = 0;       ///< [J], taken by damping

@@ -49,13 +49,16 @@ class Checker {
   }
 };
 
-void check_body(const Checker& check);        ///< lattice, body, materials, regions
-void check_scan(const Checker& check);        ///< how an image becomes cells
-void check_scatter(const Checker& check);     ///< what differs from cell to cell
-void check_conditions(const Checker& check);  ///< boundaries, loads, probes
-void check_cracks(const Checker& check);      ///< cracks from the start, what ends the run
-void check_run(const Checker& check);         ///< analysis, output
+void check_body(const Checker& check);         ///< lattice, body, materials, regions
+void check_scan(const Checker& check);         ///< how an image becomes cells
+void check_scatter(const Checker& check);      ///< what differs from cell to cell
+void check_conditions(const Checker& check);   ///< boundaries, loads, probes
+void check_cracks(const Checker& check);       ///< cracks from the start, what ends the run
+void check_macroscopic(const Checker& check);  ///< mean strain and stress of a periodic body
+void check_run(const Checker& check);          ///< analysis, output
 
+/// Refuses a history whose times do not rise.
+void check_history(const Checker& check, const std::string& path, const History& history);
 /// Refuses a name that no material has, but "void".
 void check_material_name(const Checker& check, const std::string& path, const std::string& material);
 /// Refuses a file with a value for each cell, `what` in messages, that is in no known format.

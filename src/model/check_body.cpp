@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "base/suggest.h"
 #include "koshi/calibration.h"
@@ -198,6 +199,7 @@ void check_cell_file(const Checker& check, const std::string& path, const std::s
     check.fail(path, fmt::format("{} \"{}\" is an HDF5 file, which Koshi does not read; save its data set by itself, "
                                  "such as with numpy.save(\"scan.npy\", h5py.File(\"{}\")[\"name\"])",
                                  what, file, file));
+  if (std::filesystem::path(file).extension().empty()) return;  // a folder of slices
   if (std::none_of(formats.begin(), formats.end(), [&](const auto& suffix) { return file.ends_with(suffix); }))
     check.fail(path, fmt::format("{} \"{}\" is in no known format; known: {}", what, file, quoted_list(formats)));
 }

@@ -28,17 +28,6 @@ void check_names(const Checker& check, const std::string& section, const std::ve
   }
 }
 
-void check_history(const Checker& check, const std::string& path, const History& history) {
-  for (std::size_t i = 0; i < history.size(); ++i) {
-    const std::string pair = fmt::format("{}[{}]", path, i);
-    check.within(ranges::moment_of_history, pair + "[0]", history[i][0]);
-    check.within(ranges::factor, pair + "[1]", history[i][1]);
-    if (i > 0 && !(history[i][0] > history[i - 1][0]))
-      check.fail(pair, fmt::format("time {:.12g} s does not come after {:.12g} s; the times of a history must rise",
-                                   history[i][0], history[i - 1][0]));
-  }
-}
-
 // Vibrations are about the body at rest: supports hold or they are none.
 void check_support_of_modes(const Checker& check, const std::string& path, const BoundaryDefinition& boundary) {
   const auto refuse = [&](const std::string& key, std::size_t c, const std::optional<double>& value) {
@@ -176,6 +165,17 @@ void check_probe(const Checker& check, const std::string& path, const ProbeDefin
 }
 
 }  // namespace
+
+void check_history(const Checker& check, const std::string& path, const History& history) {
+  for (std::size_t i = 0; i < history.size(); ++i) {
+    const std::string pair = fmt::format("{}[{}]", path, i);
+    check.within(ranges::moment_of_history, pair + "[0]", history[i][0]);
+    check.within(ranges::factor, pair + "[1]", history[i][1]);
+    if (i > 0 && !(history[i][0] > history[i - 1][0]))
+      check.fail(pair, fmt::format("time {:.12g} s does not come after {:.12g} s; the times of a history must rise",
+                                   history[i][0], history[i - 1][0]));
+  }
+}
 
 void check_conditions(const Checker& check) {
   const Definition& definition = check.definition;

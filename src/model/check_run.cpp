@@ -81,6 +81,7 @@ void check(const Definition& definition) {
   check_body(checker);
   check_conditions(checker);
   check_cracks(checker);
+  check_macroscopic(checker);
   check_run(checker);
 }
 

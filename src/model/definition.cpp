@@ -43,7 +43,7 @@ bool Definition::varies_in_strength() const {
 bool Definition::operator==(const Definition& other) const {
   const auto input = [](const Definition& d) {
     return std::tie(d.title, d.lattice, d.body, d.materials, d.regions, d.pre_cracks, d.selections, d.boundaries,
-                    d.loads, d.analysis, d.probes, d.output);
+                    d.loads, d.macroscopic, d.analysis, d.probes, d.output);
   };
   return input(*this) == input(other);
 }

@@ -7,6 +7,7 @@
 #include "base/collective.h"
 #include "lattice/halo.h"
 #include "mechanics/loads.h"
+#include "mechanics/uniform_strain.h"
 
 namespace koshi::statics {
 
@@ -84,10 +85,11 @@ void Equilibrium::forces(const lattice::Field<double>& u, double* b, F&& add_loa
   });
 }
 
-void Equilibrium::right_hand_side(double* b) {
+void Equilibrium::right_hand_side(double* b, const mechanics::Tensor6& mean_strain) {
   work_.zero();
   for (const Prescribed& p : prescribed_) work_.component(p.component)[p.node] = p.value;
   model_.lattice.halo->exchange(work_);
+  mechanics::add_uniform_strain(model_, mean_strain, work_);
   mechanics::LoadRows loads(model_);
   loads.set_time(t_);
   forces(work_, b, [&](std::int64_t j, std::int64_t k, double* const* force) { loads.add(j, k, force); });

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "koshi/model.h"
+#include "mechanics/cell_stress.h"
 #include "mechanics/face_springs.h"
 #include "mechanics/force_kernel.h"
 #include "statics/fixed_nodes.h"
@@ -20,8 +21,9 @@ class Equilibrium {
   Equilibrium(const model::Model& model, double t, lattice::Field<double>& work);
 
   std::int64_t size() const { return node_count_ * components_; }
-  /// Loads, and forces from prescribed displacements, on free components (collective).
-  void right_hand_side(double* b);
+  /// Loads, and forces from prescribed displacements and a mean strain of periodic bodies, on free components: the
+  /// right-hand side for what has to be added to both (collective).
+  void right_hand_side(double* b, const mechanics::Tensor6& mean_strain = {});
   /// Forces -K u of a field whose ghosts are set, on free components: the right-hand side for what has to be added to
   /// u.
   void right_hand_side(const lattice::Field<double>& u, double* b);

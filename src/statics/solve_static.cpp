@@ -2,25 +2,11 @@
 
 #include <algorithm>
 
+#include "statics/borrowed.h"
+#include "statics/macroscopic.h"
 #include "statics/static_solver.h"
 
 namespace koshi::statics {
-namespace {
-
-/// Memory of the state that waits for its values until the end; all zero again when this is gone.
-class Borrowed {
- public:
-  explicit Borrowed(lattice::Field<double>& field) : field_(field) {}
-  ~Borrowed() { field_.zero(); }
-  Borrowed(const Borrowed&) = delete;
-  Borrowed& operator=(const Borrowed&) = delete;
-  double* data() { return field_.data(); }
-
- private:
-  lattice::Field<double>& field_;
-};
-
-}  // namespace
 
 double end_time(const model::Definition& definition) {
   if (definition.analysis.duration) return *definition.analysis.duration;
@@ -33,11 +19,14 @@ double end_time(const model::Definition& definition) {
     last(boundary.history);
     t = std::max(t, boundary.ramp);
   }
+  if (definition.macroscopic) last(definition.macroscopic->history);
   return t;
 }
 
 SolveReport solve_static(const model::Model& model, model::State& state, const StaticOptions& options) {
   state.time = end_time(model.definition);
+  state.mean_strain = {};
+  if (model.definition.macroscopic) return solve_macroscopic(model, state, options);
   // Velocities are zero at rest: their memory holds the right-hand side, that of the displacements the operand of K.
   Borrowed right_hand_side(state.velocity);
   StaticSolver solver(model, state.time, state.displacement, options);

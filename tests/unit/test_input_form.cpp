@@ -102,7 +102,7 @@ density = "2000 kg/m^3"
        R"(title = "base"
 lattice = 3
 #)",
-       R"(4:1: error: unknown key "cell" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "analysis", "probe", "output")"},
+       R"(4:1: error: unknown key "cell" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "macroscopic", "analysis", "probe", "output")"},
       {"[analysis]", "[[analysis]]", "29:1: error: [analysis] is a list of 1; expected a table"},
       {"[[region]]", "[region]", "12:1: error: region is a table; expected tables, each under [[region]]"},
       {R"(title = "base")", R"(title = "base"
@@ -143,9 +143,9 @@ scale = "1 mm")",
        "", R"(32:1: error: [[probe]] has no "name"; expected a text in quotes)"},
       {R"(title = "base")", R"(title = "base"
 [a.b.c])",
-       R"(2:2: error: unknown key "a" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "analysis", "probe", "output")"},
+       R"(2:2: error: unknown key "a" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "macroscopic", "analysis", "probe", "output")"},
       {R"(title = "base")", R"("" = 1)",
-       R"(1:1: error: unknown key "" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "analysis", "probe", "output")"},
+       R"(1:1: error: unknown key "" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "macroscopic", "analysis", "probe", "output")"},
       {R"(name = "top")", R"(name = "top"
 nodes = "all")",
        R"(23:1: error: unknown key "nodes" in [[boundary]]; known: "name", "face", "box", "point", "surface", "selection", "fix", "displacement", "velocity", "twist", "center", "ramp", "history")"},

@@ -23,7 +23,7 @@ std::vector<std::filesystem::path> right_cases() {
   return {source / "examples/01_uniaxial_paper/case.toml",   source / "examples/02_cantilever_paper/case.toml",
           source / "examples/03_cantilever_exact/case.toml", source / "examples/04_two_phase_block/case.toml",
           source / "tests/fuzz/corpus/input/stepped.toml",   source / "tests/fuzz/corpus/input/image.toml",
-          source / "tests/fuzz/corpus/input/cracked.toml"};
+          source / "tests/fuzz/corpus/input/cracked.toml",   source / "tests/fuzz/corpus/input/strained.toml"};
 }
 
 TEST(ResolvedInput, ReadsBackEqual) {
@@ -158,6 +158,11 @@ TEST(ResolvedInput, EveryKeySurvives) {
                                     std::string("output.fields=['damage']")})
     expect_survival(right_cases()[6], change);
   expect_survival(right_cases()[0], "body.surface=cut");
+  for (const char* change : {"macroscopic.strain.xx=2e-3", "macroscopic.strain.yz=1", "macroscopic.strain.zz=0",
+                             "macroscopic.strain.xz=1e-9", "macroscopic.stress.yy=0", "macroscopic.stress.zz=1",
+                             "macroscopic.stress.xz=1", "macroscopic.stress.xy=1", "macroscopic.history=[[0, 2]]",
+                             "macroscopic.stress={xy=1}", "macroscopic={strain={xx=0}}"})
+    expect_survival(right_cases()[7], change);
 }
 
 TEST(ResolvedInput, WritesDefaultsInSI) {

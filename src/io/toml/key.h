@@ -116,6 +116,9 @@ const std::vector<Key<model::CylinderShape>>& keys_of(Tag<model::CylinderShape>)
 const std::vector<Key<model::HalfSpaceShape>>& keys_of(Tag<model::HalfSpaceShape>);
 const std::vector<Key<model::BoundaryDefinition>>& keys_of(Tag<model::BoundaryDefinition>);
 const std::vector<Key<model::LoadDefinition>>& keys_of(Tag<model::LoadDefinition>);
+const std::vector<Key<model::MacroscopicDefinition>>& keys_of(Tag<model::MacroscopicDefinition>);
+const std::vector<Key<model::MeanStrain>>& keys_of(Tag<model::MeanStrain>);
+const std::vector<Key<model::MeanStress>>& keys_of(Tag<model::MeanStress>);
 const std::vector<Key<model::AnalysisDefinition>>& keys_of(Tag<model::AnalysisDefinition>);
 const std::vector<Key<model::DampingDefinition>>& keys_of(Tag<model::DampingDefinition>);
 const std::vector<Key<model::ProbeDefinition>>& keys_of(Tag<model::ProbeDefinition>);

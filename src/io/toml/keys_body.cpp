@@ -27,6 +27,8 @@ const std::vector<Key<Definition>>& keys_of(Tag<Definition>) {
              "Loads, [[load]]: one of force, traction, pressure on one selection, or an "
              "acceleration of "
              "the whole body."),
+      key<D>("macroscopic", &D::macroscopic,
+             "Mean strain and mean stress of a periodic body; unset: it keeps its periods."),
       key<D>("analysis", &D::analysis, "What is computed."),
       key<D>("probe", &D::probes, "Values reported by name, [[probe]], each from the nodes of one selection."),
       key<D>("output", &D::output, "Fields, samples and checkpoints."),
@@ -89,7 +91,7 @@ const std::vector<Key<BodyDefinition>>& keys_of(Tag<BodyDefinition>) {
       key<D>(
           "image", &D::image,
           "File of cell values, one a cell (.npy, .vti, .mha, .mhd, .nrrd, .nhdr, .nii, .nii.gz, .tif, .tiff, .raw); "
-          "\"*\" in the name of a TIFF file stands for the number of a slice.",
+          "a folder of numbered TIFF slices, or \"*\" in place of the number of a slice.",
           {.example = R"("scan.nrrd")"}),
       key<D>("materials", &D::image_materials, "Material, or \"void\", of each value in the image.",
              {.required = true, .example = R"({0 = "void", 1 = "rock"})"})

@@ -40,6 +40,7 @@ std::string resolved_toml(const model::Definition& definition) {
   for (const auto& selection : resolved.selections) write_table("[[selection]]", selection, out);
   for (const auto& boundary : resolved.boundaries) write_table("[[boundary]]", boundary, out);
   for (const auto& load : resolved.loads) write_table("[[load]]", load, out);
+  if (resolved.macroscopic) write_table("[macroscopic]", *resolved.macroscopic, out);
   write_table("[analysis]", resolved.analysis, out);
   for (const auto& probe : resolved.probes) write_table("[[probe]]", probe, out);
   write_table("[output]", resolved.output, out);
