@@ -45,6 +45,7 @@ PUBLIC = {
     "scan.h": "model",
     "springs.h": "material",
     "calibration.h": "material",
+    "directional.h": "material",
     "fracture.h": "material",
     "scatter.h": "material",
     "spring_lattice.h": "model",

@@ -105,10 +105,4 @@ Closest closest_transverse(const material::ElasticTensor& C);  ///< isotropic ab
 /// Phys. Rev. Lett. 101, 055504); 0: isotropic; nothing when C is singular.
 std::optional<double> universal_anisotropy(const material::ElasticTensor& C);
 
-/// E [Pa] for tension along a direction of any length but 0; nothing when C is singular.
-std::optional<double> youngs_modulus(const material::ElasticTensor& C, const Vec3& direction);
-
-/// Speeds [m/s] of the plane waves along a direction (of any length but 0), the fastest first.
-Vec3 wave_speeds(const material::ElasticTensor& C, double density, const Vec3& direction);
-
 }  // namespace koshi::homogenize

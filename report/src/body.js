@@ -19,6 +19,9 @@ export class Body {
     this.linesPossible = this.mesh.quads.length / 4 <= MOST_QUADS_WITH_LINES;
     this.samples = block.samples;
     this.note = block.note;
+    this.title = block.title ?? "Deformed body";
+    this.unit = block.unit ?? "m";
+    this.smooth = Boolean(block.smooth);
     this.swings = Boolean(block.swings);
     this.cache = new Map();
   }

@@ -22,7 +22,7 @@ export function viewer(block) {
   const names = body.fieldNames();
   const first = names.includes("displacement") ? "displacement" : names[0];
   const state = { sample: body.swings ? 0 : body.samples.length - 1, field: first, choice: body.choices(first)[0], limits: null,
-    scale: body.startScale(), cut: null, lines: "edges", outline: body.hasDisplacement() };
+    scale: body.startScale(), cut: null, lines: body.smooth ? "none" : "edges", outline: body.hasDisplacement() };
 
   const view = element("div", { class: "view", id: "view", tabindex: "0", role: "application",
     "aria-label": "The body in three dimensions. Arrow keys turn it, plus and minus zoom, 0 shows it whole." });
@@ -40,7 +40,7 @@ export function viewer(block) {
   const panel = element("div", { class: "panel", role: "group", "aria-label": "Controls of the view" },
     fieldControls(body, state, change), sampleControls(body, state, change, drawTimes), deformationControls(body, state, change),
     cutControls(body, change, (axis) => picture?.scene.looksAlong(axis)), viewControls(body, change, () => picture));
-  const node = section("body", "Deformed body",
+  const node = section("body", body.title,
     element("div", { class: "viewer" },
       element("figure", { class: "stage" }, element("div", { class: "frame" }, view, readout), key,
         body.note ? element("p", { class: "note", id: "mesh-note", text: body.note }) : null),
@@ -58,7 +58,7 @@ export function viewer(block) {
     onTheme(() => { picture.scene.setLineColours(colourOf("--ink"), colourOf("--muted")); picture.scene.render(); });
     triad(view, picture.scene);
     listen(view, picture, (hit) => {
-      const place = hit && hit.place.map((value) => quantity(value, "m", 4)).join(", ");
+      const place = hit && hit.place.map((value) => quantity(value, body.unit, 4)).join(", ");
       readout.textContent = hit ? `${state.choice} = ${quantity(hit.value, body.field(state.field).unit)} at (${place})` : "";
     });
   };
@@ -174,7 +174,7 @@ function cutControls(body, change, looksAlong) {
     const [min, max] = [body.bounds.min[across], body.bounds.max[across]];
     let at = min + ((max - min) * slider.valueAsNumber) / CUT_STEPS;
     if (lattice) at = lattice.origin[across] + lattice.spacing * layersBelow(lattice, across, at);
-    value.textContent = `${axis.list.value} = ${quantity(Math.abs(at) < 1e-12 * (max - min) ? 0 : at, "m", 4)}`;
+    value.textContent = `${axis.list.value} = ${quantity(Math.abs(at) < 1e-12 * (max - min) ? 0 : at, body.unit, 4)}`;
     change({ cut: { axis: across, position: at, flip: flip.checked } });
   };
   // A new cut takes away the side the reader is on, or the bared face would be hidden.
@@ -188,7 +188,7 @@ function viewControls(body, change, picture) {
   const save = () => picture() && element("a", { href: picture().scene.capture(), download: "body.png" }).click();
   const button = (text, click, title) => element("button", { type: "button", text, title, on: { click } });
   const lines = select("Lines", [["edges", "edges of the body"], ["cells", "all cells"], ["none", "none"]], { id: "lines" });
-  lines.row.hidden = !body.linesPossible;
+  lines.row.hidden = !body.linesPossible || body.smooth;
   lines.list.addEventListener("change", () => change({ lines: lines.list.value }));
   return element("fieldset", {}, element("legend", { text: "View" }), lines.row,
     element("div", { class: "inline" }, ...["x", "y", "z", "oblique"].map((name) => button(name, look(name), `Look along ${name}`)),

@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "koshi/directional.h"
 #include "mechanics/measure.h"
 
 namespace koshi::driver {
@@ -68,7 +69,7 @@ Json stiffness_json(const model::Model& model, const homogenize::Effective& effe
     json["phase_means"][phase_name(model, means.material)] = {{"stress", means.stress}, {"strain", means.strain}};
   if (effective.density > 0)
     for (std::size_t a = 0; a < 3; ++a)
-      json["wave_speeds"][std::string(1, "xyz"[a])] = homogenize::wave_speeds(C, effective.density, axes[a]);
+      json["wave_speeds"][std::string(1, "xyz"[a])] = material::wave_speeds(C, effective.density, axes[a]);
   for (const statics::SolveReport& solve : effective.cases)
     json["cases"].push_back({{"iterations", solve.iterations},
                              {"relative_residual", solve.relative_residual},
@@ -91,8 +92,8 @@ std::vector<std::vector<double>> direction_rows(const homogenize::Effective& eff
       Vec3 n{};
       n[plane] = std::cos(angle);
       n[(plane + 1) % 3] = std::sin(angle);
-      const auto E = homogenize::youngs_modulus(effective.stiffness, n);
-      const Vec3 v = effective.density > 0 ? homogenize::wave_speeds(effective.stiffness, effective.density, n)
+      const auto E = material::youngs_modulus(effective.stiffness, n);
+      const Vec3 v = effective.density > 0 ? material::wave_speeds(effective.stiffness, effective.density, n)
                                            : Vec3{missing, missing, missing};
       rows.push_back({n[0], n[1], n[2], E.value_or(missing), v[0], v[1], v[2]});
     }

@@ -6,6 +6,7 @@
 
 #include "base/escape.h"
 #include "driver/stiffness_tables.h"
+#include "koshi/directional.h"
 #include "mechanics/measure.h"
 
 namespace koshi::driver {
@@ -118,7 +119,7 @@ std::string stiffness_text(const model::Model& model, const homogenize::Effectiv
   text += fmt::format("  density [kg/m^3]         {:12.5g}\n", effective.density);
   if (effective.density > 0)
     for (std::size_t a = 0; a < 3; ++a) {
-      const Vec3 v = homogenize::wave_speeds(C, effective.density, axes[a]);
+      const Vec3 v = material::wave_speeds(C, effective.density, axes[a]);
       text += fmt::format("  wave speeds along {} [m/s] {:11.5g} {:12.5g} {:12.5g}\n", "xyz"[a], v[0], v[1], v[2]);
     }
   std::vector<int> iterations;

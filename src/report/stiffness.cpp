@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "koshi/directional.h"
+#include "report/directional_surface.h"
+
 namespace koshi::report {
 namespace {
 
@@ -89,17 +92,8 @@ json structure_table(const json& stiffness) {
   return table;
 }
 
-// Young's modulus along n: 1 / E is the strain along n under a stress of 1 along n.
-double youngs_modulus(const Matrix& S, const std::array<double, 3>& n) {
-  const std::array<double, 6> stress{n[0] * n[0], n[1] * n[1], n[2] * n[2], n[1] * n[2], n[0] * n[2], n[0] * n[1]};
-  double strain = 0;
-  for (std::size_t i = 0; i < 6; ++i)
-    for (std::size_t j = 0; j < 6; ++j) strain += stress[i] * S[i][j] * stress[j];
-  return 1 / strain;
-}
-
 // In each of the three planes the end points of E(n) n.
-json modulus_curves(const Matrix& S) {
+json modulus_curves(const material::ElasticTensor& C) {
   json plot{{"title", "Young's modulus by direction"},
             {"x", {{"label", "E along the first axis"}, {"unit", "Pa"}}},
             {"y", {{"label", "E along the second axis"}, {"unit", "Pa"}}},
@@ -111,12 +105,36 @@ json modulus_curves(const Matrix& S) {
     json x = json::array(), y = json::array();
     for (int degrees = 0; degrees <= 360; degrees += 3) {
       const double angle = degrees * std::numbers::pi / 180;
-      std::array<double, 3> n{};
+      Vec3 n{};
       n[plane] = std::cos(angle);
       n[second] = std::sin(angle);
-      const double E = youngs_modulus(S, n);
+      const double E = material::youngs_modulus(C, n).value();
       x.push_back(E * n[plane]);
       y.push_back(E * n[second]);
+    }
+    plot["series"].push_back({{"name", fmt::format("plane {}{}", "xyz"[plane], "xyz"[second])}, {"x", x}, {"y", y}});
+  }
+  return plot;
+}
+
+// The speed of one of the three waves against the angle in each plane.
+json speed_curves(const material::ElasticTensor& C, double density, std::size_t wave) {
+  constexpr std::array titles{"Speed v_p of the P wave", "Speed v_s1 of the faster S wave",
+                              "Speed v_s2 of the slower S wave"};
+  json plot{{"title", titles[wave]},
+            {"x", {{"label", "from the first axis of the plane"}, {"unit", "deg"}}},
+            {"y", {{"label", "speed"}, {"unit", "m/s"}}},
+            {"series", json::array()}};
+  for (std::size_t plane = 0; plane < 3; ++plane) {
+    const std::size_t second = (plane + 1) % 3;
+    json x = json::array(), y = json::array();
+    for (int degrees = 0; degrees <= 180; degrees += 3) {
+      const double angle = degrees * std::numbers::pi / 180;
+      Vec3 n{};
+      n[plane] = std::cos(angle);
+      n[second] = std::sin(angle);
+      x.push_back(degrees);
+      y.push_back(material::wave_speeds(C, density, n)[wave]);
     }
     plot["series"].push_back({{"name", fmt::format("plane {}{}", "xyz"[plane], "xyz"[second])}, {"x", x}, {"y", y}});
   }
@@ -128,8 +146,12 @@ json modulus_curves(const Matrix& S) {
 void add_stiffness(const json& stiffness, json& data) {
   data["tables"] = {matrix_table(stiffness), constants_table(stiffness), bounds_table(stiffness),
                     structure_table(stiffness)};
-  if (!stiffness.at("compliance").is_null())
-    data["curves"] = json::array({modulus_curves(stiffness.at("compliance").get<Matrix>())});
+  if (stiffness.at("compliance").is_null()) return;
+  const material::ElasticTensor C{stiffness.at("stiffness").get<Matrix>()};
+  const double density = stiffness.at("density");
+  data["mesh"] = directional_surface(C, density);
+  data["curves"] = json::array({modulus_curves(C)});
+  for (std::size_t wave = 0; wave < 3; ++wave) data["curves"].push_back(speed_curves(C, density, wave));
 }
 
 }  // namespace koshi::report

@@ -4,9 +4,6 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <vtkBase64Utilities.h>
-#include <vtkNew.h>
-#include <vtkZLibDataCompressor.h>
 
 #include <cstdlib>
 #include <fstream>
@@ -20,10 +17,13 @@
 #include "koshi/input.h"
 #include "report/history.h"
 #include "report/mesh.h"
+#include "support/report_array.h"
 #include "support/temporary_directory.h"
 
 namespace koshi::report {
 namespace {
+
+using test::decoded;
 
 namespace fs = std::filesystem;
 using json = nlohmann::ordered_json;
@@ -81,21 +81,6 @@ name = "press"
 face = "y-max"
 quantity = "reaction"
 )";
-
-// The `count` numbers of an Array; none when it holds another number of them.
-template <class T>
-std::vector<T> decoded(const json& array, std::size_t count) {
-  const std::string text = array.at("data");
-  std::vector<unsigned char> deflated(text.size());
-  deflated.resize(vtkBase64Utilities::DecodeSafely(reinterpret_cast<const unsigned char*>(text.data()), text.size(),
-                                                   deflated.data(), deflated.size()));
-  std::vector<T> values(count);
-  vtkNew<vtkZLibDataCompressor> zlib;
-  const std::size_t bytes = zlib->Uncompress(deflated.data(), deflated.size(),
-                                             reinterpret_cast<unsigned char*>(values.data()), count * sizeof(T));
-  if (bytes != count * sizeof(T)) values.clear();
-  return values;
-}
 
 // Displacement of a node at a time: no two numbers alike.
 double displacement(int component, const Int3& at, double time) {
