@@ -19,7 +19,8 @@ FINER = 8  # voxels along the edge of a cell where it is partly filled
 SUMMARY = """## What it says
 
 Cells that are filled by volume meet the series of cylindrical holes to 0.1 % at 16 to 64 cells a period; cells that are in or out scatter by some per cent, since their stairs have another
-area. Where two solids meet in a cell one of them is lost, and stiff cylinders keep an error of 1 to 1.5 % at 64 cells. The necks between the grains of the pack are a few cells wide at 64 cells: its
+area. Where two solids meet in a cell one of them is lost, and stiff cylinders keep an error of 1 to 1.5 % at 64 cells. Where
+the shape does not matter, with equal shear moduli, the bulk modulus is that of Hill within 0.2 % for the array and 0.5 % for the pack at 64 cells. The necks between the grains of the pack are a few cells wide at 64 cells: its
 moduli still fall as cells shrink, and `--coarser` says by how much.
 
 """
@@ -83,6 +84,27 @@ def perrins(f, ratio):
     return 1 - 2 * f / (T + f - 0.305827 * f**4 * T / (T**2 - 1.402958 * f**8) - 0.013362 * f**8 / T)
 
 
+def hill_table(study):
+    yield ""
+    yield "## Equal shear moduli"
+    yield ""
+    yield ("Whatever the geometry, $1/(K + \\frac43 G)$ is the mean of those of the phases (Hill 1963, *J. Mech. Phys. Solids* 11) and $G$ is theirs. Balls on a simple cubic array, and the pack "
+           "[below](#a-pack-of-overlapping-spheres) with its pores filled, of four times the bulk modulus of the matrix, 37 GPa; the share of the balls is that of their cells.")
+    yield ""
+    yield "| geometry | n | share of the balls | K [GPa] | Hill | error | largest error of a shear modulus |"
+    yield "|---|---|---|---|---|---|---|"
+    shapes = [("simple cubic", n, balls(n, 0.2)) for n in (16, 32, 64)] + [("pack", n, ~pack(n)) for n in (32, 64)]
+    for name, n, matrix in shapes:
+        result = study(matrix, (4 * K, G))
+        share = result["phases"]["ball"]
+        right = 1 / ((1 - share) / (K + 4 * G / 3) + share / (4 * K + 4 * G / 3)) - 4 * G / 3
+        C = np.array(result["stiffness"])
+        bulk = C[:3, :3].sum() / 9
+        shears = [C[3, 3], C[4, 4], C[5, 5], *((C[i, i] + C[j, j]) / 4 - C[i, j] / 2 for i, j in ((0, 1), (1, 2), (0, 2)))]
+        worst = max(abs(shear / G - 1) for shear in shears)
+        yield (f"| {name} | {n} | {share:.4f} | {bulk / 1e9:.4f} | {right / 1e9:.4f} | {100 * (bulk / right - 1):+.3f} % | {100 * worst:.3f} % |")
+
+
 def hashin(f):
     """Upper bounds of K and G with a part f of voids."""
     zeta = G / 6 * (9 * K + 8 * G) / (K + 2 * G)
@@ -130,6 +152,25 @@ def ball_table(study):
                    + "".join(f" {m['shear'] / shear:.5f} |" for m in moduli))
 
 
+def stiff_table(study):
+    yield ""
+    yield "## Simple cubic array of stiff balls"
+    yield ""
+    yield ("Balls ten times as stiff as quartz, by centres, over the lower bounds of Hashin and Shtrikman for the share of their cells: that of K holds for the array, that of G between its two shear "
+           "moduli. The numbers of Nunan and Keller (1984) and of Sangani and Lu (1987, *J. Mech. Phys. Solids* 35, 1) could not be read for this page.")
+    yield ""
+    yield "| volume of balls | n | K over its bound | $C_{44}$ over the bound of G | $(C_{11} - C_{12})/2$ over it |"
+    yield "|---|---|---|---|---|"
+    zeta = G / 6 * (9 * K + 8 * G) / (K + 2 * G)
+    for fraction in (0.05, 0.2):
+        for n in (16, 32, 64):
+            result = study(balls(n, fraction), (10 * K, 10 * G))
+            f, C = result["phases"]["ball"], result["stiffness"]
+            bulk, shear = (1 / ((1 - f) / (x + shift) + f / (10 * x + shift)) - shift for x, shift in ((K, 4 * G / 3), (G, zeta)))
+            yield (f"| {fraction} | {n} | {result['closest_isotropic']['bulk'] / bulk:.5f} | {C[3][3] / shear:.5f} "
+                   f"| {(C[0][0] - C[0][1]) / 2 / shear:.5f} |")
+
+
 def pack(n):
     """Balls of one size at random places that overlap, porosity about 0.2: as in examples/30_sandstone, without clay."""
     random = np.random.RandomState(7)
@@ -171,7 +212,7 @@ def main():
     parser.add_argument("--koshi", default=ROOT / "build/release/koshi", type=pathlib.Path)
     with tempfile.TemporaryDirectory() as folder:
         study = Study(parser.parse_args().koshi.resolve(), pathlib.Path(folder))
-        lines = [*cylinder_table(study), *ball_table(study), *pack_table(study)]
+        lines = [*cylinder_table(study), *hill_table(study), *ball_table(study), *stiff_table(study), *pack_table(study)]
     PAGE.write_text(HEAD.format(FINER) + SUMMARY + "\n".join(lines) + "\n", encoding="utf-8")
 
 

@@ -52,7 +52,9 @@ VoxelHeader raw_header(const model::ScanDefinition& scan) {
 CellImage read_image(const std::filesystem::path& file, const char* name, bool fractions,
                      const std::optional<model::ScanDefinition>& scan) {
   const std::string format = file.extension().string();
-  const bool tiff = format == ".tif" || format == ".tiff", nifti = format == ".nii" || format == ".gz";
+  // Without a format it is a folder of slices.
+  const bool tiff = format == ".tif" || format == ".tiff" || format.empty(),
+             nifti = format == ".nii" || format == ".gz";
   const auto image = std::make_shared<VoxelImage>(
       format == ".vti"                         ? read_vti_image(file, name)
       : format == ".nrrd" || format == ".nhdr" ? read_nrrd(file)

@@ -98,12 +98,38 @@ TEST_F(Scans, SlicesAreOrderedByTheirNumbers) {
   write_tiff("slice_ab.tif", 1, 2, COMPRESSION_NONE, "w");  // no number: not of them
   expect_scan("slice_*.tif");
   write_tiff("slice_12.tif", 0, 1, COMPRESSION_NONE, "w");
-  expect_refused("slice_*.tif", "misses slice 11: slice 12 follows 10");
+  expect_refused("slice_*.tif", "misses slice 11: \"slice_12.tif\" follows \"slice_10.tif\"");
   write_tiff("slice_11.tif", 0, 1, COMPRESSION_NONE, "w", nx + 1);
   expect_refused(
       "slice_*.tif",
       "names the slice \"slice_11.tif\", which has a page of 5 x 3 uint16, but those before are of 4 x 3 uint16");
   expect_refused("other_*.tif", "names no file; \"*\" stands for the number of a slice");
+}
+
+TEST_F(Scans, AFolderIsAllItsSlices) {
+  std::filesystem::create_directory(directory / "ct");
+  write_tiff("ct/run2_0009.tif", 0, 1, COMPRESSION_NONE, "w");
+  write_tiff("ct/run2_0010.tif", 1, 2, COMPRESSION_LZW, "w");
+  std::ofstream(directory / "ct/notes.txt") << "80 kV";
+  std::ofstream(directory / "ct/.run2_0011.tif") << "";
+  expect_scan("ct");
+  expect_scan("ct/");
+  write_tiff("ct/run2_0012.tif", 0, 1, COMPRESSION_NONE, "w");
+  expect_refused("ct", "misses slice 11: \"run2_0012.tif\" follows \"run2_0010.tif\"");
+  write_tiff("ct/run2_0011.tif", 0, 1, COMPRESSION_NONE, "w", nx + 1);
+  expect_refused("ct",
+                 "names the slice \"run2_0011.tif\", which has a page of 5 x 3 uint16, but those before are of 4 x 3");
+  write_tiff("ct/run2_11.tif", 0, 1, COMPRESSION_NONE, "w");
+  expect_refused("ct", "names two files of the number 11: \"run2_0011.tif\" and \"run2_11.tif\"");
+  write_tiff("ct/run3_0011.tif", 0, 1, COMPRESSION_NONE, "w");
+  expect_refused("ct",
+                 "\"run2_0009.tif\" and \"run3_0011.tif\", which are no slices of one scan; name those you mean by a "
+                 "pattern, such as \"run2_*.tif\"");
+  write_tiff("ct/flat.tif", 0, 1, COMPRESSION_NONE, "w");
+  expect_refused("ct", "holds \"flat.tif\", a slice without a number in its name");
+  std::filesystem::create_directory(directory / "empty");
+  expect_refused("empty", "is a folder without TIFF files");
+  expect_refused("absent", "is no folder of slices; a file needs its format at the end of its name");
 }
 
 TEST_F(Scans, TiffsThatAreCutShortAreRefused) {

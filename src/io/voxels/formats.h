@@ -21,8 +21,8 @@ VoxelImage read_nrrd(const std::filesystem::path& file);
 /// NIfTI-1 (.nii, .nii.gz).
 VoxelImage read_nifti(const std::filesystem::path& file);
 
-/// TIFF (.tif, .tiff): each page is a layer of cells. "*" in the name stands for the number of a slice; then each file
-/// is one, and none may be missing.
+/// TIFF (.tif, .tiff): each page is a layer of cells. "*" in the name stands for the number of a slice, and so does a
+/// folder for all in it; then each file is one, and none may be missing.
 VoxelImage read_tiff(const std::filesystem::path& file);
 
 /// Values from this byte on to the end of the file.

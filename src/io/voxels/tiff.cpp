@@ -8,7 +8,7 @@
 
 #include "base/escape.h"
 #include "io/voxels/formats.h"
-#include "io/voxels/header_text.h"
+#include "io/voxels/slices.h"
 #include "koshi/error.h"
 
 namespace koshi::io {
@@ -132,41 +132,15 @@ void append_pages(const std::filesystem::path& path, VoxelImage& image) {
   if (read != pages) throw InputError("has a page that cannot be read");
 }
 
-// Files whose names differ from the pattern's only by a number in place of "*", by their numbers.
-std::map<std::int64_t, std::filesystem::path> slices_of(const std::filesystem::path& pattern) {
-  const std::string name = pattern.filename().string();
-  const std::size_t star = name.find('*');
-  const std::string before = name.substr(0, star), after = name.substr(star + 1);
-  std::filesystem::path folder = pattern.parent_path();
-  if (folder.empty()) folder = ".";
-  std::error_code error;
-  std::map<std::int64_t, std::filesystem::path> slices;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
-    const std::string file = entry.path().filename().string();
-    if (file.size() <= before.size() + after.size() || !file.starts_with(before) || !file.ends_with(after)) continue;
-    const auto digits = std::string_view(file).substr(before.size(), file.size() - before.size() - after.size());
-    const auto number = whole_number(digits);
-    if (!number || *number < 0) continue;
-    if (!slices.emplace(*number, entry.path()).second)
-      throw InputError(fmt::format("names two files of the number {}", *number));
-  }
-  if (error) throw InputError(fmt::format("is in a folder that cannot be read ({})", error.message()));
-  if (slices.empty()) throw InputError("names no file; \"*\" stands for the number of a slice");
-  return slices;
-}
-
 }  // namespace
 
 VoxelImage read_tiff(const std::filesystem::path& path) {
   VoxelImage image;
-  if (path.filename().string().find('*') == std::string::npos) {
+  const bool pages = !path.extension().empty() && path.filename().string().find('*') == std::string::npos;
+  if (pages) {
     append_pages(path, image);
   } else {
-    std::optional<std::int64_t> last;
-    for (const auto& [number, slice] : slices_of(path)) {
-      if (last && number != *last + 1)
-        throw InputError(fmt::format("misses slice {}: slice {} follows {}", *last + 1, number, *last));
-      last = number;
+    for (const std::filesystem::path& slice : slices_of(path)) {
       try {
         append_pages(slice, image);
       } catch (const InputError& error) {
