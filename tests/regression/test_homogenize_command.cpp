@@ -167,6 +167,7 @@ TEST_F(HomogenizeCommand, RefusesWhatHasNoEffectiveStiffness) {
       {"--set 'lattice.springs=\"plain\"'", "plain springs"},
       {"--set 'load=[{name=\"g\",acceleration=[\"0 m/s^2\",\"0 m/s^2\",\"-9.81 m/s^2\"]}]'", "remove the loads"},
       {"--set 'boundary=[{name=\"b\",point=[\"0 mm\",\"0 mm\",\"0 mm\"],fix=[\"x\"]}]'", "remove the boundaries"},
+      {"--set 'macroscopic={strain={xx=0.001}}'", "remove [macroscopic]"},
   };
   for (const auto& [arguments, message] : wrong) {
     const Ended ended = with(std::string(arguments) + " --out wrong");
