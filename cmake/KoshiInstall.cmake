@@ -42,5 +42,5 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS openmpi-bin)
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "python3, python3-numpy, python3-matplotlib")
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS
-  "libopenmpi-dev, petsc-dev, libvtk9-dev, libhdf5-openmpi-dev, zlib1g-dev, libeigen3-dev, libtomlplusplus-dev, libudunits2-dev, libfmt-dev, nlohmann-json3-dev, pkg-config, cmake")
+  "libopenmpi-dev, petsc-dev, libvtk9-dev, libhdf5-openmpi-dev, zlib1g-dev, libeigen3-dev, libtomlplusplus-dev, libudunits2-dev, libmuparser-dev, libfmt-dev, nlohmann-json3-dev, pkg-config, cmake")
 include(CPack)

@@ -70,6 +70,7 @@ LIBRARIES = {
     r"(hdf5|H5).*": ("HDF5", ["src/io/"]),
     r"(zlib|bzlib|expat|tiffio)\.h": ("zlib, bzip2, expat and libtiff", ["src/io/"]),
     r"toml\+\+/.*": ("toml++", ["src/io/"]),
+    r"muParser.*": ("muParser", ["src/model/formula."]),
     r"udunits2\.h": ("UDUNITS", ["src/io/"]),
     r"nlohmann/.*": ("JSON", ["src/io/", "src/calibration/", "src/driver/", "src/report/", "src/study/", "apps/"]),
     r"CLI/.*": ("CLI11", ["apps/"]),

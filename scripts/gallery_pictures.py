@@ -13,11 +13,13 @@ import runpy
 import subprocess
 import sys
 import tempfile
+import xml.etree.ElementTree
 
 import matplotlib
 
 matplotlib.use("agg")
 import matplotlib.pyplot as plt
+from matplotlib.collections import PolyCollection
 import numpy as np
 from PIL import Image
 
@@ -334,6 +336,29 @@ def pressurised_tube(maker):
     return drawn(fig)
 
 
+def gear(maker):
+    """Von Mises stress on the true surface, seen along the axis, and near the tooth that is pushed."""
+    root = xml.etree.ElementTree.parse(maker.run("41_gear") / "surface.vtp").getroot()
+    arrays = {array.get("Name"): np.array(array.text.split(), dtype=float) for array in root.iter("DataArray")}
+    points = 1e3 * arrays["Points"].reshape(-1, 3)
+    xx, yy, zz, yz, xz, xy = 1e-6 * arrays["stress"].reshape(-1, 6).T
+    mises = np.sqrt(0.5 * ((xx - yy)**2 + (yy - zz)**2 + (zz - xx)**2) + 3 * (yz**2 + xz**2 + xy**2))
+    ends = arrays["offsets"].astype(int)
+    pieces = [points[begin:end] for begin, end in zip([0, *ends[:-1]], ends)]
+    top = [p for p, piece in enumerate(pieces) if piece[:, 2].min() > 10 - 1e-6 and np.hypot(*piece[:, :2].mean(axis=0)) > 10]
+    fig, axes = figure(2)
+    for ax, view in zip(axes, ((-31, 31, -31, 31), (19, 31, -7, 5))):
+        shown = PolyCollection([pieces[p][:, :2] for p in top], array=mises[top], cmap="viridis", edgecolors="face", linewidth=0.4)
+        shown.set_clim(0, 500)
+        ax.add_collection(shown)
+        ax.grid(visible=False)
+        ax.set(xlim=view[:2], ylim=view[2:], aspect="equal", xlabel="x [mm]")
+    axes[1].annotate("", (26.34, -2.78), (25.7, -6.7), arrowprops={"arrowstyle": "simple", "color": RED})
+    axes[0].set_ylabel("y [mm]")
+    fig.colorbar(shown, ax=axes[1], label="von Mises stress on the upper face [MPa]", shrink=0.8)
+    return drawn(fig)
+
+
 def tuning_fork(maker):
     return side_by_side(*maker.bodies("50_tuning_fork", ["sample=0"], ["sample=2"], look="y"))
 
@@ -403,6 +428,11 @@ PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilev
             "13_brazilian_disc": brazilian_disc, "20_kalthoff_winkler": kalthoff_winkler,
             "21_rock_compression": rock_compression, "30_sandstone": sandstone, "40_pressurised_tube": pressurised_tube,
             "50_tuning_fork": tuning_fork}
+PICTURES = {"01_uniaxial_paper": uniaxial_paper, "02_cantilever_paper": cantilever_paper, "03_cantilever_exact": cantilever_exact,
+            "04_two_phase_block": two_phase_block, "05_torsion_bar": torsion_bar, "06_wave_in_bar": wave_in_bar,
+            "07_porous_cube": porous_cube, "08_gravity_column": gravity_column, "09_beam_vibration": beam_vibration,
+            "10_tunnel": tunnel, "12_l_panel": l_panel, "20_kalthoff_winkler": kalthoff_winkler, "30_sandstone": sandstone,
+            "40_pressurised_tube": pressurised_tube, "41_gear": gear, "50_tuning_fork": tuning_fork}
 
 
 def main():

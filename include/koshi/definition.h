@@ -204,7 +204,9 @@ struct LoadDefinition {
   std::optional<Vec3> traction;                    ///< [Pa], on a face, the part of it in a box, or a surface
   std::optional<double> pressure;                  ///< [Pa], against the outward normal
   std::optional<Vec3> acceleration;                ///< body force per mass [m/s^2]
-  History history;                                 ///< factor on the load
+  /// Factor on a traction, pressure or acceleration: a formula in x, y, z [m] and t [s]; empty: 1.
+  std::string profile;
+  History history;  ///< factor on the load
   bool operator==(const LoadDefinition&) const = default;
 };
 
@@ -286,12 +288,14 @@ struct AnalysisDefinition {
 struct ProbeDefinition {
   /// Of nodes, of supports, or of the cells around a node.
   enum class Quantity { displacement, rotation, velocity, reaction, moment, stress, strain };
-  /// How the values of several nodes become one; max: of each component, by size.
-  enum class Reduce { mean, area_mean, sum, max };
+  /// How the values of several nodes become one, of each component by itself; max: by size; percentile: the size that
+  /// this part of the nodes does not exceed.
+  enum class Reduce { mean, area_mean, sum, max, percentile };
   std::string name;                            ///< in the results
   Selection selection;                         ///< of nodes
   Quantity quantity = Quantity::displacement;  ///< what is reported
   std::optional<Reduce> reduce;                ///< unset: sum for reactions and moments, else mean
+  double percentile = 95;                      ///< of reduce percentile, 0 ... 100
   std::optional<Vec3> center;  ///< of a moment of the reactions [m]; unset: mean position of the selected nodes
   std::string minus;           ///< name of a selection whose mean is taken off; empty: none
 
@@ -315,6 +319,7 @@ struct OutputDefinition {
   std::optional<double> checkpoint_wall;   ///< [s] wall time; key checkpoint_every_wall
   bool report = false;                     ///< write report.html
   bool crack_surface = false;              ///< write the surface of the cracks with each sample
+  bool surface = false;  ///< write the surface of the regions, with the fields on it, with each sample
   bool operator==(const OutputDefinition&) const = default;
 };
 

@@ -29,11 +29,31 @@ struct NodeForce {
   Vec3 force{};           ///< [N], times the load's factor at the time
 };
 
+/// What a load whose profile depends on time would be with a factor of 1: nodes' shares of forces at places.
+struct ProfiledForces {
+  /// Part of the force at one place that one node takes.
+  struct Share {
+    std::size_t place = 0;  ///< in `places`
+    std::size_t entry = 0;  ///< of the node in Load::forces
+    Vec3 force{};           ///< [N]
+  };
+  std::vector<Vec3> places;   ///< where the profile is taken [m]
+  std::vector<Share> shares;  ///< by entry
+};
+
 /// A load on this rank's owned nodes; body forces act on every node by its mass.
 struct Load {
-  std::vector<NodeForce> forces;  ///< by node
-  Vec3 acceleration{};            ///< of the whole body [m/s^2]
-  History history;                ///< factor over time
+  std::vector<NodeForce> forces;             ///< by node; with a profile as it is at the start
+  Vec3 acceleration{};                       ///< of the whole body [m/s^2]
+  History history;                           ///< factor over time
+  std::optional<ProfiledForces> profiled{};  ///< unset where the forces do not vary beside their history
+};
+
+/// A place on the surface of the body.
+struct SurfacePlace {
+  std::int64_t cell = 0;  ///< index of the solid cell that feels it
+  Vec3 from_centre{};     ///< of that cell, in spacings
+  double area = 0;        ///< of the surface that it stands for [m^2]
 };
 
 /// Owned nodes of a probe with their weights; the weights of all ranks add up to `total`.
@@ -42,6 +62,8 @@ struct Probe {
   std::vector<std::pair<std::int64_t, double>> nodes;  ///< index in the layout, weight
   double total = 0;                                    ///< of the weights
   std::vector<Vec3> arms;                              ///< of a moment: positions of the nodes from its centre [m]
+  /// Of stress or strain on surfaces: places in owned cells, which take the part of the nodes.
+  std::vector<SurfacePlace> places{};
 };
 
 /// Cells cut by surfaces, all ranks.

@@ -228,6 +228,8 @@ class Load:
     """body force per mass [m/s^2], on the whole body"""
     distribution: Literal["area", "nodes"] | None = None
     """of the force, default "area" """
+    profile: str | None = None
+    """factor on a traction, pressure or acceleration: a formula in x, y, z [m] and t [s]"""
     history: Sequence[tuple[Quantity, float]] | None = None
     """factor on the load: pairs (time [s], factor)"""
 
@@ -296,8 +298,10 @@ class Probe:
     """name of a selection"""
     quantity: Literal["displacement", "rotation", "velocity", "reaction", "moment", "stress", "strain"] | None = None
     """default "displacement" """
-    reduce: Literal["mean", "area-mean", "sum", "max"] | None = None
+    reduce: Literal["mean", "area-mean", "sum", "max", "percentile"] | None = None
     """default: sum for reactions and moments, else mean"""
+    percentile: float | None = None
+    """of reduce "percentile", default 95"""
     center: Vector | None = None
     """point about which a moment is taken, default the mean of the selected nodes"""
     minus: str | None = None
@@ -324,6 +328,8 @@ class Output:
     """write report.html at the end, default False"""
     crack_surface: bool | None = None
     """write cracks.vtp with each sample, default False"""
+    surface: bool | None = None
+    """write surface.vtp with each sample, default False"""
 
 
 @dataclass

@@ -4,6 +4,7 @@
 #include "dynamics/orientation.h"
 #include "mechanics/cell_stress.h"
 #include "mechanics/measure.h"
+#include "mechanics/surface_stress.h"
 #include "mechanics/uniform_strain.h"
 
 namespace koshi::driver {
@@ -24,6 +25,28 @@ Field<double> on_cells(const model::Model& model, const Field<double>& u, int co
     const mechanics::CellState state = mechanics::material_state(model.lattice, u, n);
     for (int c = 0; c < components; ++c) field.component(c)[n] = f(state, c);
   });
+  return field;
+}
+
+// Strain or stress, `tensor` of what is extrapolated, in the same cells; those that a surface cuts take it from the
+// whole ones around them.
+Field<double> tensor_on_cells(const model::Model& model, const Field<double>& u,
+                              mechanics::Tensor6 mechanics::CellState::*own,
+                              mechanics::Tensor6 mechanics::SurfaceStress::Value::*extrapolated) {
+  Field<double> field =
+      on_cells(model, u, 6, [&](const auto& state, int c) { return (state.*own)[static_cast<std::size_t>(c)]; });
+  if (!model.cut) return field;
+  std::vector<std::int64_t> cut;
+  const std::uint16_t* cell = model.lattice.cell.component(0);
+  lattice::for_each_owned(model.layout(), [&](auto, auto, auto, auto n) {
+    if (cell[n] != 0 && model.lattice.fraction_of(n) != 1) cut.push_back(n);
+  });
+  mechanics::SurfaceStress surface(model.lattice, cut);
+  surface.update(u);
+  for (const std::int64_t n : cut) {
+    const auto value = surface.at(n, surface.middle_of_part(n));
+    for (int c = 0; c < 6; ++c) field.component(c)[n] = (value.*extrapolated)[static_cast<std::size_t>(c)];
+  }
   return field;
 }
 
@@ -79,10 +102,10 @@ void FieldSet::add(const std::string& name, const model::Model& model, model::St
     fields_.back().components = 3;
   }
   if (name == "strain")
-    computed(on_cells(model, u, 6, [](const auto& s, int c) { return s.strain[static_cast<std::size_t>(c)]; }),
+    computed(tensor_on_cells(model, u, &mechanics::CellState::strain, &mechanics::SurfaceStress::Value::strain),
              tensor_names, true);
   if (name == "stress")
-    computed(on_cells(model, u, 6, [](const auto& s, int c) { return s.stress[static_cast<std::size_t>(c)]; }),
+    computed(tensor_on_cells(model, u, &mechanics::CellState::stress, &mechanics::SurfaceStress::Value::stress),
              tensor_names, true);
   if (name == "damage") fields_.push_back({name, &state.crack, 0, 1, {}, true});
   if (name == "crack_opening") {

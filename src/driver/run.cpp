@@ -17,6 +17,7 @@
 #include "driver/results.h"
 #include "driver/run_simulation.h"
 #include "driver/scatter_report.h"
+#include "driver/surface_file.h"
 #include "io/cell_image.h"
 #include "io/field_writer.h"
 #include "io/history_writer.h"
@@ -76,6 +77,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
       const FieldSet set(definition.output.fields, model, at, simulation.meter());
       field_writer.write(at.time, set.fields());
     });
+    if (definition.output.surface) while_making("the surface", [&] { write_surface(model, at, options.directory); });
     if (definition.cracks()) cracks = write_crack_files(model, at, load_factors, options.directory);
   };
   observer.progress = [&](double fraction, const std::string& details) {

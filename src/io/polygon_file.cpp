@@ -38,7 +38,10 @@ void write_polygons(const std::filesystem::path& path, std::span<const std::vect
       "header_type=\"UInt64\">\n<PolyData>\n<Piece NumberOfPoints=\"{}\" NumberOfVerts=\"0\" NumberOfLines=\"0\" "
       "NumberOfStrips=\"0\" NumberOfPolys=\"{}\">\n<CellData>\n",
       corners.size(), polygons.size());
-  for (const auto& [name, numbers] : values) add_array(out, "Float64", name, 1, numbers);
+  for (const auto& [name, numbers] : values) {
+    const std::size_t components = polygons.empty() ? 1 : numbers.size() / polygons.size();
+    add_array(out, "Float64", name, static_cast<int>(components), numbers);
+  }
   out += "</CellData>\n<Points>\n";
   add_array(out, "Float64", "Points", 3, points);
   out += "</Points>\n<Polys>\n";

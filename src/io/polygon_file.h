@@ -11,7 +11,7 @@
 
 namespace koshi::io {
 
-/// Values of the polygons by name, one each.
+/// Values of the polygons by name, as many each as there are times more of them than polygons.
 using PolygonValues = std::vector<std::pair<std::string, std::vector<double>>>;
 
 /// Writes `path` (.vtp): polygons by their corners, with values. Written beside, then renamed. Throws RunError with the

@@ -1,9 +1,11 @@
 // Loads and prescribed motions, row by row.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "koshi/model.h"
+#include "model/formula.h"
 
 namespace koshi::mechanics {
 
@@ -41,6 +43,10 @@ class LoadRows {
  private:
   const model::Model& model_;
   std::vector<RowIndex> rows_;  ///< by load
+  /// Where the profile of a load depends on time: its forces then; by load.
+  std::vector<std::optional<model::Formula>> profile_;
+  std::vector<std::vector<model::NodeForce>> forces_;
+  std::vector<double> scratch_;
   std::vector<double> factor_;  ///< by load
   Vec3 acceleration_{};         ///< of all body forces [m/s^2]
 };

@@ -6,6 +6,7 @@
 #include "base/exact_sum.h"
 #include "lattice/halo.h"
 #include "mechanics/cell_stress.h"
+#include "mechanics/percentile.h"
 #include "mechanics/uniform_strain.h"
 
 namespace koshi::mechanics {
@@ -17,7 +18,16 @@ Meter::Meter(const model::Model& model, ForceKernel& kernel)
     : model_(model),
       kernel_(kernel),
       loads_(model),
-      motion_rows_(model.layout(), model.motions, [](const model::PrescribedMotion& m) { return m.node; }) {}
+      motion_rows_(model.layout(), model.motions, [](const model::PrescribedMotion& m) { return m.node; }) {
+  std::vector<std::int64_t> cells;
+  bool any = false;
+  for (const model::Probe& probe : model.probes)
+    for (const model::SurfacePlace& place : probe.places) {
+      if (cells.empty() || cells.back() != place.cell) cells.push_back(place.cell);
+      any = true;
+    }
+  if (model.communicator.any(any)) surface_.emplace(model.lattice, cells);
+}
 
 namespace {
 
@@ -198,6 +208,7 @@ Measurement Meter::measure(model::State& state, double dt) {
 
   Measurement result{sums.total(model_.communicator), {}};
   add_mean_strain(model_, state, result.balance);
+  if (surface_) surface_->update(state.displacement);
   for (const model::Probe& probe : model_.probes) {
     std::vector<std::array<double, 6>> reactions;
     if (needs_reactions(probe))
@@ -214,6 +225,19 @@ ProbeValue Meter::probe_value(const model::Probe& probe, const model::State& sta
   const std::size_t components = tensor ? 6 : 3;
   std::vector<ExactSum> sum(components);
   ProbeValue largest(components, 0);
+  std::vector<std::vector<Weighted>> all(components);  // for a percentile
+  const bool ranked = probe.definition.reduce == Reduce::percentile;
+  const auto take = [&](const std::array<double, 6>& value, double weight) {
+    for (std::size_t c = 0; c < components; ++c) {
+      sum[c] += weight * value[c];
+      if (ranked) all[c].push_back({value[c], weight});
+      if (std::abs(value[c]) > std::abs(largest[c])) largest[c] = value[c];
+    }
+  };
+  for (const model::SurfacePlace& place : probe.places) {
+    const SurfaceStress::Value at = surface_->at(place.cell, place.from_centre);
+    take(quantity == Quantity::stress ? at.stress : at.strain, probe.definition.reduce == Reduce::sum ? 1 : place.area);
+  }
   for (std::size_t p = 0; p < probe.nodes.size(); ++p) {
     const auto& [node, weight] = probe.nodes[p];
     std::array<double, 6> value{};
@@ -235,14 +259,15 @@ ProbeValue Meter::probe_value(const model::Probe& probe, const model::State& sta
             : quantity == Quantity::velocity ? state.velocity.component(c)[node]
                                              : state.displacement.component(c)[node];
     }
-    for (std::size_t c = 0; c < components; ++c) {
-      sum[c] += weight * value[c];
-      if (std::abs(value[c]) > std::abs(largest[c])) largest[c] = value[c];
-    }
+    take(value, weight);
   }
 
   ProbeValue result(components);
   for (std::size_t c = 0; c < components; ++c) {
+    if (ranked) {
+      result[c] = percentile(model_.communicator, all[c], probe.definition.percentile);
+      continue;
+    }
     if (probe.definition.reduce == Reduce::max) {
       // The value of largest magnitude, with its sign.
       const double up = model_.communicator.max(largest[c]), down = model_.communicator.min(largest[c]);

@@ -1,11 +1,13 @@
 // What is measured on a state: balance, energies, probes.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "koshi/model.h"
 #include "mechanics/force_kernel.h"
 #include "mechanics/loads.h"
+#include "mechanics/surface_stress.h"
 
 namespace koshi::mechanics {
 
@@ -56,6 +58,7 @@ class Meter {
   ForceKernel& kernel_;
   LoadRows loads_;
   RowIndex motion_rows_;
+  std::optional<SurfaceStress> surface_;  ///< of probes with places on surfaces
 };
 
 /// Component names of a probe's quantity: {"x", "y", "z"}, {"xx", ...}; a unit for each quantity.

@@ -7,6 +7,7 @@
 #include "model/check.h"
 #include "model/check_selection.h"
 #include "model/choices.h"
+#include "model/formula.h"
 
 namespace koshi::model {
 namespace {
@@ -112,6 +113,22 @@ void check_boundary(const Checker& check, const std::string& path, const Boundar
   check_history(check, path + ".history", boundary.history);
 }
 
+void check_profile(const Checker& check, const std::string& path, const std::string& title,
+                   const LoadDefinition& load) {
+  if (load.profile.empty()) return;
+  if (load.force)
+    check.fail(path, fmt::format("{} is a total force, which takes no profile; give traction or pressure", title));
+  try {
+    const Formula formula(load.profile);
+    if (formula.varies_in_time() && !check.definition.analysis.stepped())
+      check.fail(path, fmt::format("{} has a profile that depends on t, but only motion knows the time; leave t out, "
+                                   "or give the type \"quasi-static\" or \"dynamic\"",
+                                   title));
+  } catch (const InputError& error) {
+    check.fail(path, error.message());
+  }
+}
+
 void check_load(const Checker& check, const std::string& path, const LoadDefinition& load) {
   const std::string title = fmt::format("load \"{}\"", load.name);
   std::vector<std::string> given;
@@ -143,6 +160,7 @@ void check_load(const Checker& check, const std::string& path, const LoadDefinit
     check.fail(path + ".point",
                fmt::format("{} is a {} on a point, which has no area; select a face or box, or give force", title,
                            load.traction ? "traction" : "pressure"));
+  check_profile(check, path + ".profile", title, load);
   check_history(check, path + ".history", load.history);
 }
 
@@ -151,6 +169,7 @@ void check_probe(const Checker& check, const std::string& path, const ProbeDefin
   check_selection(check, path, title, probe.selection);
   if (probe.quantity == ProbeDefinition::Quantity::moment && probe.reduction() != ProbeDefinition::Reduce::sum)
     check.fail(path + ".reduce", fmt::format("{} is a moment, which is a sum over its nodes; leave reduce out", title));
+  check.within(ranges::percentile, path + ".percentile", probe.percentile);
   if (probe.center) check.within(ranges::position, path + ".center", *probe.center);
   if (probe.minus.empty()) return;
   using D = ProbeDefinition;

@@ -64,6 +64,9 @@ void check_run(const Checker& check) {
                  fmt::format("{} belongs to materials that crack, and there is none; give one a fracture, or leave {} "
                              "out",
                              output.fields[i], output.fields[i]));
+  if (output.surface && check.definition.regions.empty())
+    check.fail("output.surface",
+               "surface is that of the regions, and there are none; make the body of regions, or leave it out");
   check.within(ranges::time, "output.every", output.every);
   if (output.every_events) check.within(ranges::event_count, "output.every_events", *output.every_events);
   if (output.every_events && !check.definition.cracks_in_equilibrium())

@@ -132,6 +132,7 @@ inline constexpr auto choices<ProbeDefinition::Reduce> = std::to_array<Choice<Pr
     {"area-mean", ProbeDefinition::Reduce::area_mean},
     {"sum", ProbeDefinition::Reduce::sum},
     {"max", ProbeDefinition::Reduce::max},
+    {"percentile", ProbeDefinition::Reduce::percentile},
 });
 
 /// The word for an enumerator.

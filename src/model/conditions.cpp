@@ -6,6 +6,7 @@
 
 #include "base/collective.h"
 #include "base/exact_sum.h"
+#include "model/profiled_loads.h"
 #include "model/selection.h"
 #include "model/surface_loads.h"
 
@@ -140,46 +141,98 @@ std::vector<PrescribedMotion> make_motions(const Model& model) {
   return motions;
 }
 
+namespace {
+
+[[noreturn]] void no_surface(const Model& model, const std::string& path, const std::string& title) {
+  throw InputError(model.definition.places.find(path),
+                   fmt::format("{} selects no surface of the body to act on; select a face, or spread a force with "
+                               "distribution = \"nodes\"",
+                               title));
+}
+
+// A load on faces of cells without a profile.
+std::vector<NodeForce> face_forces(const Model& model, const LoadDefinition& load,
+                                   const std::vector<SelectedNode>& nodes, const std::string& path,
+                                   const std::string& title) {
+  // Surface of the selection; every part is a multiple of d^2/4, so count quarters.
+  const double quarter = 0.25 * model.lattice.grid.d * model.lattice.grid.d;
+  std::array<std::int64_t, 2> sums{static_cast<std::int64_t>(nodes.size()), 0};
+  for (const SelectedNode& node : nodes) sums[1] += std::llround(node.area / quarter);
+  model.communicator.sum(sums);
+  const auto [count, quarters] = sums;
+  const bool by_nodes = load.force && (load.distribution == LoadDefinition::Distribution::nodes || count == 1);
+  if (!by_nodes && quarters == 0) no_surface(model, path, title);
+  std::vector<NodeForce> forces;
+  for (const SelectedNode& node : nodes) {
+    Vec3 force{};
+    if (by_nodes)
+      force = (1 / static_cast<double>(count)) * *load.force;
+    else if (load.force)
+      force = (node.area / (quarter * static_cast<double>(quarters))) * *load.force;
+    else if (load.traction)
+      force = node.area * *load.traction;
+    else
+      force = -*load.pressure * node.outward;
+    forces.push_back({node.node, force});
+  }
+  return forces;
+}
+
+}  // namespace
+
 std::vector<Load> make_loads(const Model& model) {
   std::vector<Load> loads;
   for (std::size_t l = 0; l < model.definition.loads.size(); ++l) {
     const LoadDefinition& load = model.definition.loads[l];
-    Load made{{}, load.acceleration.value_or(Vec3{}), load.history};
-    if (const auto regions = surfaces_of(load.selection, model.definition); !regions.empty()) {
-      made.forces = surface_forces(model, load, regions, fmt::format("load[{}]", l), title("load", load.name, l));
-    } else if (!load.acceleration) {
-      const std::string path = fmt::format("load[{}]", l);
-      const auto nodes = nodes_of(model, load.selection, path, title("load", load.name, l));
-      // Surface of the selection; every part is a multiple of d^2/4, so count quarters.
-      const double quarter = 0.25 * model.lattice.grid.d * model.lattice.grid.d;
-      std::array<std::int64_t, 2> sums{static_cast<std::int64_t>(nodes.size()), 0};
-      for (const SelectedNode& node : nodes) sums[1] += std::llround(node.area / quarter);
-      model.communicator.sum(sums);
-      const auto [count, quarters] = sums;
-      const bool by_nodes = load.force && (load.distribution == LoadDefinition::Distribution::nodes || count == 1);
-      if (!by_nodes && quarters == 0)
-        throw InputError(
-            model.definition.places.find(path),
-            fmt::format("{} selects no surface of the body to act on; select a face, or spread a force with "
-                        "distribution = \"nodes\"",
-                        title("load", load.name, l)));
-      for (const SelectedNode& node : nodes) {
-        Vec3 force{};
-        if (by_nodes)
-          force = (1 / static_cast<double>(count)) * *load.force;
-        else if (load.force)
-          force = (node.area / (quarter * static_cast<double>(quarters))) * *load.force;
-        else if (load.traction)
-          force = node.area * *load.traction;
-        else
-          force = -*load.pressure * node.outward;
-        made.forces.push_back({node.node, force});
+    const std::string path = fmt::format("load[{}]", l), name = title("load", load.name, l);
+    const auto regions = surfaces_of(load.selection, model.definition);
+    const auto profiled = [&](ForceShares&& shares) {
+      loads.push_back(std::move(shares).with_profile(model, load, path));
+    };
+    if (load.acceleration) {
+      if (load.profile.empty())
+        loads.push_back({{}, *load.acceleration, load.history});
+      else
+        profiled(ForceShares(model, load));
+    } else if (!regions.empty()) {
+      const auto pieces = selected_pieces(model, load.selection, regions, path, name);
+      if (load.profile.empty())
+        loads.push_back({surface_forces(model, load, pieces), {}, load.history});
+      else
+        profiled(ForceShares(model, load, pieces));
+    } else {
+      const auto nodes = nodes_of(model, load.selection, path, name);
+      if (load.profile.empty()) {
+        loads.push_back({face_forces(model, load, nodes, path, name), {}, load.history});
+        continue;
       }
+      ForceShares shares(model, load, select(load.selection, model.definition, model.lattice.grid, path));
+      if (!model.communicator.any(!shares.empty())) no_surface(model, path, name);
+      profiled(std::move(shares));
     }
-    loads.push_back(std::move(made));
   }
   return loads;
 }
+
+namespace {
+
+// Places of a probe of stress or strain on surfaces: the middles of their pieces, each for its area.
+void set_places(const Model& model, const std::vector<int>& regions, const std::string& path, const std::string& title,
+                Probe& probe) {
+  const lattice::Grid& grid = model.lattice.grid;
+  ExactSum total;
+  for (const SurfacePiece& piece : selected_pieces(model, probe.definition.selection, regions, path, title)) {
+    const Int3 local = model.layout().local(piece.cell);
+    if (!model.layout().owns(local)) continue;
+    const Vec3 from_corner = (1 / grid.d) * (piece.at - grid.position(piece.cell));
+    probe.places.push_back({model.layout().index(local), from_corner - Vec3{0.5, 0.5, 0.5}, norm(piece.area)});
+    total += probe.places.back().area;
+  }
+  total.sum_ranks(model.communicator);
+  probe.total = total.value();
+}
+
+}  // namespace
 
 std::vector<Probe> make_probes(const Model& model) {
   std::vector<Probe> probes;
@@ -187,6 +240,13 @@ std::vector<Probe> make_probes(const Model& model) {
     Probe probe{model.definition.probes[p], {}, 0, {}};
     probe.definition.reduce = probe.definition.reduction();
     const std::string path = fmt::format("probe[{}]", p);
+    const auto quantity = probe.definition.quantity;
+    const bool tensor = quantity == ProbeDefinition::Quantity::stress || quantity == ProbeDefinition::Quantity::strain;
+    if (const auto regions = surfaces_of(probe.definition.selection, model.definition); tensor && !regions.empty()) {
+      set_places(model, regions, path, title("probe", probe.definition.name, p), probe);
+      probes.push_back(std::move(probe));
+      continue;
+    }
     const auto nodes = nodes_of(model, probe.definition.selection, path, title("probe", probe.definition.name, p));
     probe.total = add_weights(model, nodes, probe);
     if (probe.definition.quantity == ProbeDefinition::Quantity::moment) {

@@ -97,6 +97,7 @@ inline constexpr Range velocity = symmetric("m/s", 1e12, 1e-30);
 inline constexpr Range angular_velocity = symmetric("rad/s", 1e15, 1e-30);
 inline constexpr Range mean_strain = symmetric("", 1e6, 1e-30);
 inline constexpr Range factor = symmetric("", 1e15);
+inline constexpr Range percentile{.unit = "", .least = 0, .most = 100};
 inline constexpr Range ramp{.unit = "s", .least = 0, .most = 1e15};
 inline constexpr Range moment_of_history = symmetric("s", 1e15);
 

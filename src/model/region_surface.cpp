@@ -203,7 +203,9 @@ std::vector<SurfacePiece> surface_of(const Definition& definition, const lattice
                         "that no cell there is solid; use a smaller spacing",
                         at[0], at[1], at[2]));
       }
-      pieces.push_back({*home, position(place), (in ? 1 : -1) * grid.d * grid.d * area});
+      Polygon corners;
+      for (const Vec3& x : part) corners.push_back(position(x));
+      pieces.push_back({*home, position(place), (in ? 1 : -1) * grid.d * grid.d * area, std::move(corners)});
     });
   }
   return pieces;

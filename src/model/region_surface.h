@@ -5,14 +5,16 @@
 
 #include "koshi/definition.h"
 #include "koshi/grid.h"
+#include "model/clip.h"
 
 namespace koshi::model {
 
 /// A flat piece of a region's surface that is surface of the body.
 struct SurfacePiece {
-  Int3 cell{};  ///< the solid cell that feels it: the one it lies in, or if that is empty one close by
-  Vec3 at{};    ///< its centroid [m]
-  Vec3 area{};  ///< area times the normal that points out of the body [m^2]
+  Int3 cell{};        ///< the solid cell that feels it: the one it lies in, or if that is empty one close by
+  Vec3 at{};          ///< its centroid [m]
+  Vec3 area{};        ///< area times the normal that points out of the body [m^2]
+  Polygon corners{};  ///< in order [m]
 };
 
 /// The part of a region's surface with the body on one side only, in a fixed order, the same on every rank: triangles

@@ -199,7 +199,12 @@ NodeSet select(const Selection& selection, const Definition& definition, const l
   return box;
 }
 
-std::vector<SelectedNode> selected_nodes(const SpringLattice& body, const NodeSet& box) {
+namespace {
+
+// Calls f(node, solid, quarters) for owned nodes of the set: whether one of their cells is solid, and their quarters of
+// faces.
+template <class F>
+void for_each_selected(const SpringLattice& body, const NodeSet& box, F&& f) {
   const lattice::Layout& layout = body.layout;
   const std::uint16_t* cell = body.cell.component(0);
   const Int3 begin = layout.local(box.lo), end = layout.local(box.hi);
@@ -208,14 +213,14 @@ std::vector<SelectedNode> selected_nodes(const SpringLattice& body, const NodeSe
     lo[a] = std::max<std::int64_t>(begin[a], 0);
     hi[a] = std::min(end[a] + 1, layout.owned()[a]);
   }
-  const double quarter = 0.25 * body.grid.d * body.grid.d;
   const std::array<std::int64_t, 3> step{1, layout.pitch(), layout.plane()};
 
-  std::vector<SelectedNode> nodes;
+  std::vector<FaceQuarter> quarters;
   lattice::for_each(layout, lo, hi, [&](auto i, auto j, auto k, auto n) {
-    SelectedNode node{n, layout.global({i, j, k}), {}, 0};
+    const SelectedNode node{n, layout.global({i, j, k}), {}, 0};
     if (!box.contains(node.global)) return;
     bool solid = false;
+    quarters.clear();
     // The twelve cell faces that meet at the node: for each normal a, one in each quadrant of the other two axes b, c.
     for (int a = 0; a < 3; ++a) {
       const int b = (a + 1) % 3, c = (a + 2) % 3;
@@ -230,13 +235,35 @@ std::vector<SelectedNode> selected_nodes(const SpringLattice& body, const NodeSe
           for (const int t : {b, c})
             if (body.grid.periodic[t]) opposite[t] = (opposite[t] + body.grid.cells[t]) % body.grid.cells[t];
           if (solid_above == solid_below || !box.contains(opposite)) continue;
-          node.outward[a] += solid_below ? quarter : -quarter;
-          node.area += quarter;
+          quarters.push_back({n, node.global, a, solid_below ? 1 : -1, {2 * qb + 1, 2 * qc + 1}});
         }
     }
-    if (solid) nodes.push_back(node);
+    f(node, solid, quarters);
+  });
+}
+
+}  // namespace
+
+std::vector<SelectedNode> selected_nodes(const SpringLattice& body, const NodeSet& box) {
+  const double quarter = 0.25 * body.grid.d * body.grid.d;
+  std::vector<SelectedNode> nodes;
+  for_each_selected(body, box, [&](SelectedNode node, bool solid, const std::vector<FaceQuarter>& quarters) {
+    if (!solid) return;
+    for (const FaceQuarter& part : quarters) {
+      node.outward[static_cast<std::size_t>(part.axis)] += part.outward * quarter;
+      node.area += quarter;
+    }
+    nodes.push_back(node);
   });
   return nodes;
+}
+
+std::vector<FaceQuarter> selected_quarters(const SpringLattice& body, const NodeSet& box) {
+  std::vector<FaceQuarter> all;
+  for_each_selected(body, box, [&](const SelectedNode&, bool, const std::vector<FaceQuarter>& quarters) {
+    all.insert(all.end(), quarters.begin(), quarters.end());
+  });
+  return all;
 }
 
 }  // namespace koshi::model

@@ -51,4 +51,16 @@ struct SelectedNode {
 /// Owned nodes of the set that have a cell, in memory order.
 std::vector<SelectedNode> selected_nodes(const SpringLattice& body, const NodeSet& box);
 
+/// A quarter of a face between a solid and an empty cell whose four corners are selected: that of one of its corners.
+struct FaceQuarter {
+  std::int64_t node = 0;
+  Int3 global{};
+  int axis = 0;               ///< across the face
+  int outward = 0;            ///< direction out of the body along it, 1 or -1
+  std::array<int, 2> side{};  ///< where the face lies from the corner along the next axis and the one after, 1 or -1
+};
+
+/// Those of owned nodes of the set, in memory order.
+std::vector<FaceQuarter> selected_quarters(const SpringLattice& body, const NodeSet& box);
+
 }  // namespace koshi::model

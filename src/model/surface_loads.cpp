@@ -4,20 +4,10 @@
 
 #include <map>
 
-#include "model/region_surface.h"
 #include "model/selection.h"
 
 namespace koshi::model {
 namespace {
-
-std::vector<SurfacePiece> selected_pieces(const Model& model, const LoadDefinition& load,
-                                          const std::vector<int>& regions) {
-  std::vector<SurfacePiece> pieces;
-  for (const int region : regions)
-    for (const SurfacePiece& piece : surface_of(model.definition, model.lattice.grid, region))
-      if (holds(load.selection, model.definition, piece.at, region)) pieces.push_back(piece);
-  return pieces;
-}
 
 Vec3 force_on(const SurfacePiece& piece, const LoadDefinition& load, double whole_area) {
   if (load.pressure) return -*load.pressure * piece.area;
@@ -27,9 +17,29 @@ Vec3 force_on(const SurfacePiece& piece, const LoadDefinition& load, double whol
 
 }  // namespace
 
-std::vector<NodeForce> surface_forces(const Model& model, const LoadDefinition& load, const std::vector<int>& regions,
-                                      const std::string& path, const std::string& title) {
-  const auto pieces = selected_pieces(model, load, regions);
+std::array<CornerShare, 8> corner_shares(const lattice::Grid& grid, const Int3& cell, const Vec3& place) {
+  const Vec3 at = (1 / grid.d) * (place - grid.position(cell));
+  std::array<CornerShare, 8> shares;
+  for (std::size_t c = 0; c < 8; ++c) {
+    CornerShare& share = shares[c];
+    share = {cell, 1};
+    for (std::size_t a = 0; a < 3; ++a) {
+      const bool upper = c >> a & 1;
+      share.weight *= upper ? at[a] : 1 - at[a];
+      share.node[a] += upper;
+      if (grid.periodic[a]) share.node[a] %= grid.cells[a];
+    }
+  }
+  return shares;
+}
+
+std::vector<SurfacePiece> selected_pieces(const Model& model, const Selection& selection,
+                                          const std::vector<int>& regions, const std::string& path,
+                                          const std::string& title) {
+  std::vector<SurfacePiece> pieces;
+  for (const int region : regions)
+    for (SurfacePiece& piece : surface_of(model.definition, model.lattice.grid, region))
+      if (holds(selection, model.definition, piece.at, region)) pieces.push_back(std::move(piece));
   if (pieces.empty())
     throw InputError(
         model.definition.places.find(path),
@@ -37,28 +47,22 @@ std::vector<NodeForce> surface_forces(const Model& model, const LoadDefinition& 
             "{} selects no surface of the body: on both sides of the surface it names lies the same, or it lies "
             "outside of what else the selection asks for",
             title));
+  return pieces;
+}
+
+std::vector<NodeForce> surface_forces(const Model& model, const LoadDefinition& load,
+                                      const std::vector<SurfacePiece>& pieces) {
   double whole_area = 0;
   for (const SurfacePiece& piece : pieces) whole_area += norm(piece.area);
-
   const lattice::Layout& layout = model.layout();
-  const lattice::Grid& grid = model.lattice.grid;
   std::map<std::int64_t, Vec3> forces;
   for (const SurfacePiece& piece : pieces) {
     const Vec3 force = force_on(piece, load, whole_area);
-    const Vec3 at = (1 / grid.d) * (piece.at - grid.position(piece.cell));
-    for (int c = 0; c < 8; ++c) {
-      double weight = 1;
-      Int3 node = piece.cell;
-      for (std::size_t a = 0; a < 3; ++a) {
-        const bool upper = c >> a & 1;
-        weight *= upper ? at[a] : 1 - at[a];
-        node[a] += upper;
-        if (grid.periodic[a]) node[a] %= grid.cells[a];
-      }
-      const Int3 local = layout.local(node);
+    for (const CornerShare& share : corner_shares(model.lattice.grid, piece.cell, piece.at)) {
+      const Int3 local = layout.local(share.node);
       if (!layout.owns(local)) continue;
       Vec3& sum = forces[layout.index(local)];
-      sum = sum + weight * force;
+      sum = sum + share.weight * force;
     }
   }
   std::vector<NodeForce> list;

@@ -151,7 +151,7 @@ nodes = "all")",
        R"(23:1: error: unknown key "nodes" in [[boundary]]; known: "name", "face", "box", "point", "surface", "selection", "fix", "displacement", "velocity", "twist", "center", "ramp", "history")"},
       {"[output]", R"([output]
 format = "vtk")",
-       R"(36:1: error: unknown key "format" in [output]; known: "fields", "every", "every_events", "history_every", "checkpoint_every", "checkpoint_every_wall", "report", "crack_surface")"},
+       R"(36:1: error: unknown key "format" in [output]; known: "fields", "every", "every_events", "history_every", "checkpoint_every", "checkpoint_every_wall", "report", "crack_surface", "surface")"},
       {R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"]
 )",
        R"(size = ["0.8 cm", "0.8 cm", "1.6 cm"]

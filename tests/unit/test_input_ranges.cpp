@@ -157,6 +157,7 @@ const std::map<std::string, std::string>& places() {
       {"probe.box.max", "probe.a point.box"},
       {"probe.point", "probe.a point.point.1"},
       {"probe.center", "probe.a point.center"},
+      {"probe.percentile", "probe.worst.percentile"},
       {"output.every", "output.every"},
       {"output.history_every", "output.history_every"},
       {"output.checkpoint_every", "output.checkpoint_every"},
@@ -244,8 +245,8 @@ TEST(Ranges, EveryNumberIsKeptToThem) {
     EXPECT_THAT(message_of(name, "\"1e400\""), HasSubstr("is out of the range of numbers")) << name;
     ++count;
   }
-  EXPECT_EQ(count, 113);
-  EXPECT_EQ(places().size(), 113u);
+  EXPECT_EQ(count, 114);
+  EXPECT_EQ(places().size(), 114u);
 }
 
 // The unit of a range is the one in which the reader gives its values.
@@ -274,7 +275,7 @@ TEST(Ranges, HaveTheUnitOfTheirKey) {
                 check_units<StopDefinition>() + check_units<SelectionDefinition>() + check_units<SphereShape>() +
                 check_units<CylinderShape>() + check_units<HalfSpaceShape>() + check_units<MeanStrain>() +
                 check_units<MeanStress>(),
-            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 2 + 4 + 4 + 4 + 1 + 6 + 2 + 2 + 2 + 3 + 2 + 6 + 6);
+            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 3 + 4 + 4 + 4 + 1 + 6 + 2 + 2 + 2 + 3 + 2 + 6 + 6);
 }
 
 // A fracture with nothing wrong but what it is given.
@@ -342,6 +343,7 @@ TEST(Ranges, HoldForDefinitionsOfAProgram) {
       [](D& d) -> double& { return d.analysis.damping.factor; },
       [](D& d) -> double& { return d.analysis.damping.rate; },
       [](D& d) -> double& { return d.probes[0].selection.point.emplace()[0]; },
+      [](D& d) -> double& { return d.probes[1].percentile; },
       [](D& d) -> double& { return d.output.every.emplace(); },
       [](D& d) -> double& { return d.output.history_every.emplace(); },
       [](D& d) -> double& { return d.output.checkpoint_every.emplace(); },
@@ -357,7 +359,7 @@ TEST(Ranges, HoldForDefinitionsOfAProgram) {
       EXPECT_THROW(model::check(wrong), InputError) << "member " << m << " = " << value;
       ++count;
     }
-  EXPECT_EQ(count, 51 * 5);
+  EXPECT_EQ(count, 52 * 5);
 }
 
 }  // namespace

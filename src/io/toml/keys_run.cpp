@@ -94,6 +94,8 @@ const std::vector<Key<OutputDefinition>>& keys_of(Tag<OutputDefinition>) {
       key<D>("report", &D::report, "Write report.html at the end."),
       key<D>("crack_surface", &D::crack_surface,
              "Write the surface of the cracks with each sample, where a material can crack."),
+      key<D>("surface", &D::surface,
+             "Write the surface of the regions, with displacement and stress on it, with each sample."),
   };
   return keys;
 }

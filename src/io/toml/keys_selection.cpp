@@ -163,36 +163,40 @@ const std::vector<Key<BoundaryDefinition>>& keys_of(Tag<BoundaryDefinition>) {
 
 const std::vector<Key<LoadDefinition>>& keys_of(Tag<LoadDefinition>) {
   using D = LoadDefinition;
-  static const std::vector<Key<D>> keys =
-      joined(place_keys<D>("Name for messages and --set; unset: \"load 1\" and so on.", false),
-             {
-                 key<D>("force", &D::force, "Total force on the selection.",
-                        {.dimension = Dimension::force,
-                         .range = ranges::force,
-                         .example = R"(["9.8 N", "0 N", "0 N"])",
-                         .one_of = {"what"}}),
-                 key<D>("traction", &D::traction, "Force per area.",
-                        {.dimension = Dimension::pressure,
-                         .range = ranges::pressure,
-                         .example = R"([0, 0, "-2 MPa"])",
-                         .one_of = {"what"}}),
-                 key<D>("pressure", &D::pressure, "Pressure against the outward normal of the face or surface.",
-                        {.dimension = Dimension::pressure,
-                         .range = ranges::pressure,
-                         .example = R"("2 MPa")",
-                         .one_of = {"what"}}),
-                 key<D>("acceleration", &D::acceleration, "Body force per mass, on the whole body.",
-                        {.dimension = Dimension::acceleration,
-                         .range = ranges::acceleration,
-                         .example = R"([0, 0, "-9.80665 m/s^2"])",
-                         .one_of = {"where", "what"}}),
-                 key<D>("distribution", &D::distribution,
-                        "The total force is spread by the area each node stands for, or evenly over the nodes.")
-                     .only_for("a load with force", {"force"}, [](const D& load) { return load.force.has_value(); }),
-                 key<D>("history", &D::history,
-                        "Factor on the load over time: pairs [time, factor], linear between, constant outside.",
-                        {.example = R"([["0 s", 0], ["1 s", 1]])"}),
-             });
+  static const std::vector<Key<D>> keys = joined(
+      place_keys<D>("Name for messages and --set; unset: \"load 1\" and so on.", false),
+      {
+          key<D>("force", &D::force, "Total force on the selection.",
+                 {.dimension = Dimension::force,
+                  .range = ranges::force,
+                  .example = R"(["9.8 N", "0 N", "0 N"])",
+                  .one_of = {"what"}}),
+          key<D>("traction", &D::traction, "Force per area.",
+                 {.dimension = Dimension::pressure,
+                  .range = ranges::pressure,
+                  .example = R"([0, 0, "-2 MPa"])",
+                  .one_of = {"what"}}),
+          key<D>("pressure", &D::pressure, "Pressure against the outward normal of the face or surface.",
+                 {.dimension = Dimension::pressure,
+                  .range = ranges::pressure,
+                  .example = R"("2 MPa")",
+                  .one_of = {"what"}}),
+          key<D>("acceleration", &D::acceleration, "Body force per mass, on the whole body.",
+                 {.dimension = Dimension::acceleration,
+                  .range = ranges::acceleration,
+                  .example = R"([0, 0, "-9.80665 m/s^2"])",
+                  .one_of = {"where", "what"}}),
+          key<D>("distribution", &D::distribution,
+                 "The total force is spread by the area each node stands for, or evenly over the nodes.")
+              .only_for("a load with force", {"force"}, [](const D& load) { return load.force.has_value(); }),
+          key<D>("profile", &D::profile, "Factor on the load in space and time: a formula in x, y, z [m] and t [s].",
+                 {.example = R"f("max(0, 10 - z)")f"})
+              .only_for("a load with traction, pressure or acceleration", {"traction", "pressure", "acceleration"},
+                        [](const D& load) { return load.traction || load.pressure || load.acceleration; }),
+          key<D>("history", &D::history,
+                 "Factor on the load over time: pairs [time, factor], linear between, constant outside.",
+                 {.example = R"([["0 s", 0], ["1 s", 1]])"}),
+      });
   return keys;
 }
 
@@ -204,6 +208,11 @@ const std::vector<Key<ProbeDefinition>>& keys_of(Tag<ProbeDefinition>) {
           key<D>("quantity", &D::quantity, "What is reported."),
           key<D>("reduce", &D::reduce,
                  "How the values of several nodes become one; unset: sum for reactions and moments, else mean."),
+          key<D>("percentile", &D::percentile,
+                 "Part of the nodes, in per cent, whose values are at most the reported one by size.",
+                 {.range = ranges::percentile, .example = "95"})
+              .only_for("reduce = \"percentile\"", {"reduce"},
+                        [](const D& probe) { return probe.reduce == D::Reduce::percentile; }),
           key<D>("center", &D::center,
                  "Point about which the reactions' moment is taken; unset: the mean of the selected nodes.",
                  {.dimension = Dimension::length, .range = ranges::position, .example = R"(["5 mm", "5 mm", "0 mm"])"})

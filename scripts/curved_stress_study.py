@@ -1,0 +1,265 @@
+#!/usr/bin/python3
+"""Stress at curved surfaces, as stairs and as cut cells: writes docs/validation/curved_stress.csv and its table in curved.md.
+
+    scripts/curved_stress_study.py [--koshi build/release/koshi] [--out docs/validation] [--cells 5 10 20]
+
+Bodies with the tractions of an exact solution on their outer faces (as profiles), nothing held but walls of plane strain:
+  plate     hole of radius a = 1 along z in a plate pulled along x, plane strain (Kirsch)
+  turned    the same, pulled at 30 degrees from x
+  tilted    the same hole along (1, 2, 3) in a cube, pulled at 30 degrees from the lattice in the plane across it
+  bar       round bar of radius 1 along z, twisted (Coulomb)
+  askew     the same bar along (1, 2, 3)
+n cells a radius, nu = 0.3. Errors in per cent: work of the tractions; peak at the curved surface, of the hoop stress (3) or the
+shear stress; that stress at all pieces of the curved surface, of its peak, mean by size and worst. The middles lie at no node.
+"""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import re
+import subprocess
+import tempfile
+
+E, NU = 1e9, 0.3
+S = 1e6  # the pull, or the shear stress at the bar's surface
+CENTER = (0.0313, 0.0171, -0.0123)
+
+
+def unit(v):
+    size = math.sqrt(sum(c * c for c in v))
+    return tuple(c / size for c in v)
+
+
+def cross(a, b):
+    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
+
+
+def dot(a, b):
+    return sum(x * y for x, y in zip(a, b))
+
+
+def frame(axis, angle):
+    """p, q, axis: right-handed; p is turned by an angle from the direction across the axis that lies in the x-y plane."""
+    axis = unit(axis)
+    first = (1.0, 0.0, 0.0) if abs(axis[2]) == 1 else unit(cross((0, 0, 1), axis))
+    second = cross(axis, first)
+    p = tuple(math.cos(angle) * a + math.sin(angle) * b for a, b in zip(first, second))
+    return p, cross(axis, p), axis
+
+
+def along(direction):
+    """Formula of the coordinate along a direction, from the centre."""
+    return "(" + "".join(f"{c:+.12g}*{v}" for c, v in zip(direction, "xyz")) + f"{-dot(direction, CENTER):+.12g})"
+
+
+class Hole:
+    """Kirsch's solution by terms: each a constant stress tensor in the frame times a function of place."""
+    def __init__(self, axis, angle, half, thin):
+        self.p, self.q, self.axis = self.frame = frame(axis, angle)
+        self.half, self.thin, self.surface = half, thin, "hole"
+
+    def terms(self):
+        p, q = along(self.p), along(self.q)
+        angle, square = f"atan2({q},{p})", f"({p}^2+{q}^2)"
+        # Of pp, qq, pq; along the axis nu (pp + qq).
+        return [((1, 0, 0), "1"),
+                ((-1.5, -0.5, 0), f"cos(2*{angle})/{square}"), ((0, 0, -0.5), f"sin(2*{angle})/{square}"),
+                ((-1, 1, 0), f"cos(4*{angle})/{square}"), ((0, 0, -1), f"sin(4*{angle})/{square}"),
+                ((1.5, -1.5, 0), f"cos(4*{angle})/{square}^2"), ((0, 0, 1.5), f"sin(4*{angle})/{square}^2")]
+
+    def faces(self, d):
+        """Name, outward normal and a point of each loaded face; box of the body."""
+        half = math.ceil(self.half / d) * d
+        low, size = [-half] * 3, [2 * half] * 3
+        if self.thin:
+            low[2], size[2] = 0.0, 2 * d
+        loaded = []
+        for a in range(2 if self.thin else 3):
+            for sign in (-1, 1):
+                normal = tuple(sign if b == a else 0 for b in range(3))
+                loaded.append((f"{'xyz'[a]}{'- +'[sign + 1]}", normal, tuple(0.5 * half * sign if b == a else 0 for b in range(3))))
+        return loaded, low, size
+
+    def regions(self, low, size):
+        high = [l + s for l, s in zip(low, size)]
+        reach = 4 * max(size)
+        ends = [[c + s * reach * e for c, e in zip(CENTER, self.axis)] for s in (-1, 1)]
+        return (f'[[region]]\nname = "hull"\nshape = "box"\nmin = {low}\nmax = {high}\nmaterial = "rock"\n'
+                f'[[region]]\nname = "hole"\nshape = "cylinder"\nstart = {ends[0]}\nend = {ends[1]}\nradius = 1.0\nmaterial = "void"\n')
+
+    def traction(self, term, normal):
+        pp, qq, pq = term
+        zz = NU * (pp + qq)
+        np, nq, nz = (dot(normal, v) for v in self.frame)
+        return [S * ((pp * np + pq * nq) * a + (pq * np + qq * nq) * b + zz * nz * c)
+                for a, b, c in zip(*self.frame)]
+
+    def stress(self, at):
+        """Exact hoop stress at the surface, and its direction."""
+        p, q = dot(at, self.p), dot(at, self.q)
+        angle = math.atan2(q, p)
+        direction = tuple(-math.sin(angle) * a + math.cos(angle) * b for a, b in zip(self.p, self.q))
+        return S * (1 - 2 * math.cos(2 * angle)), direction, direction
+
+    peak = 3 * S
+    work = None
+
+
+class Bar:
+    """Twisted round bar of length 3: shear stress S r across the radius."""
+    def __init__(self, axis):
+        self.p, self.q, self.axis = self.frame = frame(axis, 0)
+        self.length, self.surface = 3.0, "bar"
+
+    def terms(self):
+        return [("p", along(self.p)), ("q", along(self.q))]
+
+    def faces(self, d):
+        ends = [tuple(c + s * 0.5 * self.length * e for c, e in zip(CENTER, self.axis)) for s in (-1, 1)]
+        # An end holds the places within half a cell of its plane.
+        loaded = [(name, tuple(s * e for e in self.axis), tuple(c - s * 0.25 * self.length * e for c, e in zip(end, self.axis)))
+                  for name, s, end in zip(("foot", "head"), (-1, 1), ends)]
+        half = [0.5 * self.length * abs(e) + math.sqrt(1 - e * e) for e in self.axis]
+        reach = [math.ceil((h + 0.1) / d) * d for h in half]
+        return loaded, [-r for r in reach], [2 * r for r in reach]
+
+    def regions(self, low, size):
+        ends = [[c + s * 0.5 * self.length * e for c, e in zip(CENTER, self.axis)] for s in (-1, 1)]
+        return f'[[region]]\nname = "bar"\nshape = "cylinder"\nstart = {ends[0]}\nend = {ends[1]}\nradius = 1.0\nmaterial = "rock"\n'
+
+    def traction(self, term, normal):
+        # t = S (axis x r), on the lower end with the other sign.
+        sign = 1 if dot(normal, self.axis) > 0 else -1
+        direction = self.q if term == "p" else tuple(-c for c in self.p)
+        return [sign * S * c for c in direction]
+
+    def stress(self, at):
+        p, q = dot(at, self.p), dot(at, self.q)
+        r = math.hypot(p, q)
+        direction = tuple(-q / r * a + p / r * b for a, b in zip(self.p, self.q))
+        return S * r, direction, self.axis
+
+    peak = S
+    # T^2 L / (G J) with T = S pi/2, J = pi/2, L = 3.
+    work = S * S * math.pi / 2 * 3 / (E / (2 * (1 + NU)))
+
+
+def case(body, d, surface):
+    loaded, low, size = body.faces(d)
+    text = f"""
+[lattice]
+spacing = {d!r}
+[material.rock]
+youngs_modulus = {E}
+poissons_ratio = {NU}
+density = 1000
+[body]
+origin = {low}
+size = {size}
+material = "void"
+surface = "{surface}"
+{body.regions(low, size)}
+[analysis]
+type = "static"
+tolerance = 1e-8
+[output]
+fields = []
+surface = true
+"""
+    hull = "hull" if isinstance(body, Hole) else "bar"
+    text += f'[[selection]]\nname = "skin"\nsurface = "{hull}"\n'
+    for name, normal, point in loaded:
+        # The face is what of the skin lies beyond a plane close to it; of the bar's wall nothing may.
+        inner = tuple(-c for c in normal)
+        if isinstance(body, Hole):
+            offset = max(abs(s) for s in low[:2]) - 1e-3 * d
+            point = tuple(offset * c for c in normal)
+        else:
+            point = tuple(c + (0.5 * body.length - 1e-3 * d) * e for c, e in zip(CENTER, normal))
+        text += (f'[[selection]]\nname = "beyond {name}"\nhalf_space = {{ point = {list(point)}, normal = {list(inner)} }}\n'
+                 f'[[selection]]\nname = "{name}"\nintersection = ["skin", "beyond {name}"]\n')
+        for term, profile in body.terms():
+            traction = body.traction(term, normal)
+            if max(abs(t) for t in traction) > 1e-9 * S:
+                text += f'[[load]]\nselection = "{name}"\ntraction = {traction}\nprofile = "{profile}"\n'
+    if isinstance(body, Hole) and body.thin:
+        text += "".join(f'[[boundary]]\nface = "{f}"\nfix = ["z", "rx", "ry"]\n' for f in ("z-min", "z-max"))
+    elif isinstance(body, Hole):
+        # Where the hole leaves the cube pieces count whole or not at all: three corners take what is left of the balance.
+        high = [l + s for l, s in zip(low, size)]
+        for corner, fix in ((low, ["x", "y", "z"]), ([high[0], *low[1:]], ["y", "z"]), ([low[0], high[1], low[2]], ["z"])):
+            text += f'[[boundary]]\npoint = {corner}\nfix = {json.dumps(fix)}\n'
+    return text
+
+
+def array(text, name):
+    found = re.search(rf'Name="{name}"[^>]*>([^<]*)<', text).group(1)
+    return [float(v) for v in found.split()]
+
+
+def measure(koshi, body, n, surface):
+    d = 1 / n
+    with tempfile.TemporaryDirectory() as folder:
+        folder = pathlib.Path(folder)
+        (folder / "case.toml").write_text(case(body, d, surface))
+        subprocess.run([koshi, "run", folder / "case.toml", "--out", folder / "out"], check=True, capture_output=True)
+        energy = json.loads((folder / "out" / "summary.json").read_text())["energy"]["elastic"]
+        text = (folder / "out" / "surface.vtp").read_text()
+    points, corners, ends = array(text, "Points"), array(text, "connectivity"), array(text, "offsets")
+    stress = array(text, "stress")
+    errors, found_peak, begin = [], 0, 0
+    for piece, end in enumerate(ends):
+        own = [int(c) for c in corners[begin:int(end)]]
+        begin = int(end)
+        at = [sum(points[3 * c + a] for c in own) / len(own) - CENTER[a] for a in range(3)]
+        height = dot(at, body.axis)
+        r = math.sqrt(max(0, dot(at, at) - height * height))
+        if abs(r - 1) > 0.01 or (isinstance(body, Bar) and abs(height) > 0.5 * body.length - 2 * d):
+            continue  # outer faces, and the rims of the ends
+        if isinstance(body, Hole) and not body.thin and max(abs(a + c) for a, c in zip(at, CENTER)) > body.half - 0.5:
+            continue  # where the hole leaves the cube
+        exact, first, second = body.stress(at)
+        xx, yy, zz, yz, xz, xy = stress[6 * piece:6 * piece + 6]
+        tensor = ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))
+        value = sum(first[a] * tensor[a][b] * second[b] for a in range(3) for b in range(3))
+        errors.append((value - exact) / body.peak)
+        found_peak = max(found_peak, value)
+    mean = sum(abs(e) for e in errors) / len(errors)
+    return 2 * energy, [100 * v for v in (found_peak / body.peak - 1, mean, max(abs(e) for e in errors))]
+
+
+def bodies():
+    return [("plate", Hole((0, 0, 1), 0.0, 4.0, True)), ("turned", Hole((0, 0, 1), math.pi / 6, 4.0, True)),
+            ("tilted", Hole((1, 2, 3), math.pi / 6, 2.0, False)), ("bar", Bar((0, 0, 1))), ("askew", Bar((1, 2, 3)))]
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--koshi", default="build/release/koshi")
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("docs/validation"))
+    parser.add_argument("--bodies", nargs="+", default=[name for name, _ in bodies()])
+    parser.add_argument("--cells", type=int, nargs="+", default=[5, 10, 20])
+    options = parser.parse_args()
+    table = []
+    for name, body in (pair for pair in bodies() if pair[0] in options.bodies):
+        for surface in ("stairs", "cut"):
+            for n in options.cells:
+                work, errors = measure(options.koshi, body, n, surface)
+                work = "" if body.work is None else 100 * (work / body.work - 1)
+                table.append([name, surface, n, work] + errors)
+                print(*table[-1], flush=True)
+    text = lambda v, digits: "" if v == "" else f"{v:.{digits}g}"
+    with open(options.out / "curved_stress.csv", "w", newline="") as file:
+        writer = csv.writer(file, lineterminator="\n")
+        writer.writerow(["body", "surface", "n", "work error [%]", "peak error [%]", "mean error [%]", "worst error [%]"])
+        writer.writerows([*row[:3], *(text(v, 4) for v in row[3:])] for row in table)
+    lines = ["| body | surface | n | work | peak | mean | worst |", "|---|---|---|---|---|---|---|"]
+    lines += [f"| {row[0]} | {row[1]} | {row[2]} | " + " | ".join(text(v, 2) for v in row[3:]) + " |" for row in table]
+    page = options.out / "curved.md"
+    before, after = page.read_text().split("<!-- stress table -->\n")[0], page.read_text().split("<!-- stress end -->")[1]
+    page.write_text(before + "<!-- stress table -->\n\n" + "\n".join(lines) + "\n\n<!-- stress end -->" + after)
+
+
+if __name__ == "__main__":
+    main()
