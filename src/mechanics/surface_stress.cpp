@@ -19,7 +19,15 @@ Int3 step_of(int neighbour) { return {neighbour % 3 - 1, neighbour / 3 % 3 - 1, 
 }  // namespace
 
 SurfaceStress::SurfaceStress(const model::SpringLattice& body, std::span<const std::int64_t> cells)
-    : body_(body), cells_(cells.begin(), cells.end()) {
+    : body_(body), cells_(cells.begin(), cells.end()), part_(body.layout, 1), whole_(body.layout, 1) {
+  lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
+    const std::uint16_t material = body.cell.component(0)[n];
+    if (material != 0) part_.component(0)[n] = static_cast<float>(body.fraction_of(n));
+    if (body.fraction_of(n) == 1) whole_.component(0)[n] = material;
+  });
+  body.halo->exchange(part_);
+  body.halo->exchange(whole_);
+
   // Marks: 3 at the cells, 2 and 1 at those one and two cells away.
   const lattice::Layout& layout = body.layout;
   lattice::Field<std::uint8_t> mark(layout, 1);
@@ -53,7 +61,7 @@ std::int64_t SurfaceStress::offset(int neighbour) const {
 
 // Across a border of materials the stress jumps.
 bool SurfaceStress::alike(std::int64_t a, std::int64_t b) const {
-  return whole(b) && body_.cell.component(0)[a] == body_.cell.component(0)[b];
+  return whole(b) && body_.cell.component(0)[a] == whole_.component(0)[b];
 }
 
 template <class Member>
@@ -159,10 +167,9 @@ Vec3 SurfaceStress::middle_of_part(std::int64_t cell) const {
   // Towards where more of the cells around is inside; of a part below a plane across that direction.
   Vec3 inward{};
   for (int b = 0; b < block; ++b) {
-    const std::int64_t other = cell + offset(b);
-    if (body_.cell.component(0)[other] == 0) continue;
+    const double part = part_.component(0)[cell + offset(b)];
     const Int3 step = step_of(b);
-    for (std::size_t a = 0; a < 3; ++a) inward[a] += body_.fraction_of(other) * static_cast<double>(step[a]);
+    for (std::size_t a = 0; a < 3; ++a) inward[a] += part * static_cast<double>(step[a]);
   }
   const double length = norm(inward);
   if (length == 0) return {};

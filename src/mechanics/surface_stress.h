@@ -46,7 +46,7 @@ class SurfaceStress {
     bool owned = false;
   };
 
-  bool whole(std::int64_t cell) const { return body_.cell.component(0)[cell] != 0 && body_.fraction_of(cell) == 1; }
+  bool whole(std::int64_t cell) const { return whole_.component(0)[cell] != 0; }
   /// The linear field of the whole cells around one, at its centre.
   Known fit(std::int64_t cell) const;
   bool alike(std::int64_t a, std::int64_t b) const;
@@ -57,6 +57,9 @@ class SurfaceStress {
 
   const model::SpringLattice& body_;
   std::vector<std::int64_t> cells_;
+  // With all ghosts, which the body has not: part of each cell inside; material of whole cells, else 0.
+  lattice::Field<float> part_;
+  lattice::Field<std::uint16_t> whole_;
   std::vector<Near> near_;                           // whole cells of this rank and its ghosts, up to two cells away
   std::unordered_map<std::int64_t, Known> known_;    // by cell of near_
   std::unordered_map<std::int64_t, Numbers> alone_;  // cells without a whole one around
