@@ -126,6 +126,31 @@ TEST_F(CrackingRuns, EventsAreTheSameOnTwoRanks) {
   EXPECT_GT(analysis.at("peak").at("event"), 0);
 }
 
+// A flaw right across the plate's upper part is closed by the pressure on the ends; ranks share its cells, and agree.
+// It carries the pressure, by nodes that the border between the ranks, across x, does not touch.
+TEST_F(CrackingRuns, ClosedCracksAreTheSameOnTwoRanks) {
+  const std::string pressed =
+      "run plate.toml --quiet --set analysis='{type=\"static\", events=8}' --set output='{}' --set "
+      "boundary.pull.displacement='{x=\"-20 um\"}' --set boundary.pull.history='[[\"0 s\", 1]]' --set "
+      "'crack=[{center=[\"15 mm\", \"30 mm\", \"5 mm\"], normal=[1, 0.3, 0], radius=\"12 mm\"}]' --set "
+      "'probe=[{name=\"push\", face=\"x-max\", quantity=\"reaction\"}]' ";
+  ASSERT_EQ(koshi(pressed + "--out one").code, 0);
+  ASSERT_EQ(koshi(pressed + "--out two --ranks 2").code, 0);
+  ASSERT_EQ(koshi(pressed + "--set material.concrete.fracture.law=none --set crack=[] --out whole").code, 0);
+  const auto one = io::read_history(directory_ / "one/history.csv"),
+             two = io::read_history(directory_ / "two/history.csv"),
+             whole = io::read_history(directory_ / "whole/history.csv");
+  ASSERT_EQ(one[2].name, "push.reaction.x");
+  ASSERT_EQ(one[2].values.size(), two[2].values.size());
+  ASSERT_GE(one[2].values.size(), 2u);
+  for (std::size_t row = 1; row < one[2].values.size(); ++row) {
+    EXPECT_NEAR(two[1].values[row] / one[1].values[row], 1, 1e-5) << row;
+    EXPECT_NEAR(two[2].values[row] / one[2].values[row], 1, 1e-5) << row;
+  }
+  // Over the stiffness of the plate without a flaw; pulled open the same flaw leaves 0.66 of it.
+  EXPECT_NEAR(one[2].values[1] / one[1].values[1] / whole[1].values.back(), 0.864, 0.005);
+}
+
 // An equilibrium ends at the event at which its reaction has fallen or a crack has come to a face, and its catalogue
 // holds every cell that cracked through, by number of event and load factor; the same on two ranks.
 TEST_F(CrackingRuns, EquilibriaEndWhenToldToAndTellWhatBroke) {
