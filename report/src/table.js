@@ -4,6 +4,8 @@ import { labelled, magnitudeOf, number, prefixed, quantity, unitText } from "./f
 
 // Values this much smaller than others of their unit are rounding errors of zero; the tooltip has them in full.
 const NOISE = 1e-9;
+// Texts of more characters may break into lines.
+const SENTENCE = 40;
 
 /**
  * @param {object} table {title?, columns: [{name, unit?, decimals?}], rows: [[…]], heat?, note?}; cells are numbers, texts, {value, unit}
@@ -42,7 +44,10 @@ function cell(value, column, strength) {
     const text = Array.isArray(value.value) ? vector(value.value, value.unit) : quantity(value.value, value.unit);
     return element("td", { title: String(value.value), dataset: { value: value.value }, text });
   }
-  if (typeof value !== "number") return element("td", { class: numeric ? "number" : null }, ...subscripted(value ?? "–"));
+  if (typeof value !== "number") {
+    const kind = numeric ? "number" : value?.length > SENTENCE ? "sentence" : null;
+    return element("td", { class: kind }, ...subscripted(value ?? "–"));
+  }
   return element("td", { class: "number", title: String(value), dataset: { value }, style: strength ? heat(value / strength) : null, text: shown(value, column) });
 }
 

@@ -80,7 +80,7 @@ std::string probe_place(const model::ProbeDefinition& probe) {
 // SI unit of a number of the summary, which goes by its key.
 std::string unit_of_key(const std::string& key) {
   if (key.ends_with("seconds") || key == "time" || key == "time_step") return "s";
-  if (key.ends_with("memory")) return "B";
+  if (key.ends_with("memory") || key == "memory_before" || key == "library_growth") return "B";
   return "1";
 }
 
