@@ -1,5 +1,5 @@
 # koshi_kernels(SOURCE) compiles a source of inner loops once per instruction set, with KOSHI_ISA set to the set's name;
-# the program chooses at run time. Signed zeros, traps and non-numbers do not matter inside such loops.
+# the program chooses at run time. Signed zeros, traps, non-numbers and errno do not matter inside such loops.
 set(KOSHI_KERNEL_SETS baseline)
 set(KOSHI_KERNEL_FLAGS_baseline "")
 set(KOSHI_KERNEL_DEFINITION "")
@@ -16,7 +16,7 @@ function(koshi_kernels source)
     add_library(koshi_${stem}_${set} OBJECT ${source})
     target_include_directories(koshi_${stem}_${set} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/include)
     target_compile_options(koshi_${stem}_${set} PRIVATE -O3 -Wall -Wextra $<$<BOOL:${KOSHI_WERROR}>:-Werror>
-      -fno-signed-zeros -ffinite-math-only -fno-trapping-math -Wno-psabi ${KOSHI_KERNEL_FLAGS_${set}})
+      -fno-signed-zeros -ffinite-math-only -fno-trapping-math -fno-math-errno -Wno-psabi ${KOSHI_KERNEL_FLAGS_${set}})
     target_compile_definitions(koshi_${stem}_${set} PRIVATE KOSHI_ISA=${set})
     target_sources(koshi PRIVATE $<TARGET_OBJECTS:koshi_${stem}_${set}>)
   endforeach()
