@@ -19,6 +19,7 @@ import math
 import pathlib
 import re
 import subprocess
+import sys
 import tempfile
 
 E, NU = 1e9, 0.3
@@ -248,7 +249,7 @@ def main():
                 work, errors = measure(options.koshi, body, n, surface)
                 work = "" if body.work is None else 100 * (work / body.work - 1)
                 table.append([name, surface, n, work] + errors)
-                print(*table[-1], flush=True)
+                print(*table[-1], file=sys.stderr, flush=True)
     text = lambda v, digits: "" if v == "" else f"{v:.{digits}g}"
     with open(options.out / "curved_stress.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")

@@ -17,6 +17,7 @@ import json
 import math
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 E, NU, A, B = 1e9, 0.3, 1.0, 2.0
@@ -196,7 +197,7 @@ def main():
         for surface in ("stairs", "cut"):
             for n in options.cells:
                 table.append([kind, surface, n] + measure(options.koshi, Body(kind, n), surface))
-                print(*table[-1], flush=True)
+                print(*table[-1], file=sys.stderr, flush=True)
     with open(options.out / "curved.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["body", "surface", "n"] + [f"{name} error [%]" for name in names])
