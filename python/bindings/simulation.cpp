@@ -38,8 +38,8 @@ void raise_interrupt() {
 }
 
 py::object macroscopic_of(const driver::Outcome& outcome) {
-  if (!outcome.solution || !outcome.solution->macroscopic) return py::none();
-  const statics::Macroscopic& whole = *outcome.solution->macroscopic;
+  if (!outcome.measurement.mean) return py::none();
+  const mechanics::MeanState& whole = *outcome.measurement.mean;
   return py::dict(py::arg("strain") = py::array_t<double>(6, whole.strain.data()),
                   py::arg("stress") = py::array_t<double>(6, whole.stress.data()));
 }

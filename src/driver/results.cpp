@@ -4,6 +4,7 @@
 
 #include "base/escape.h"
 #include "driver/mode_tables.h"
+#include "mechanics/uniform_strain.h"
 
 namespace koshi::driver {
 namespace {
@@ -12,6 +13,7 @@ using Json = nlohmann::ordered_json;
 using Type = model::AnalysisDefinition::Type;
 
 constexpr std::array<const char*, 3> families{"edge", "face", "body"};
+const std::vector<std::string> tensor = mechanics::component_names(model::ProbeDefinition::Quantity::strain);
 constexpr std::array<const char*, 4> types{"static", "quasi-static", "dynamic", "modes"};
 
 Json springs(const model::Model& model) {
@@ -64,18 +66,17 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
   return entry;
 }
 
-// Mean strain and stress; null for strains across directions without a period, which have no mean.
-Json macroscopic(const model::Model& model, const statics::SolveReport& solution) {
+// Null for strains across directions without a period, which have no mean.
+Json macroscopic(const model::Model& model, const Outcome& outcome) {
   Json strain = Json::object(), stress = Json::object();
-  const auto names = mechanics::component_names(model::ProbeDefinition::Quantity::strain);
-  const auto& periodic = model.lattice.grid.periodic;
-  constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  const mechanics::MeanState& mean = *outcome.measurement.mean;
   for (std::size_t c = 0; c < 6; ++c) {
-    const bool has_mean = periodic[axes[c][0]] && periodic[axes[c][1]];
-    strain[names[c]] = has_mean ? Json(solution.macroscopic->strain[c]) : Json();
-    stress[names[c]] = solution.macroscopic->stress[c];
+    strain[tensor[c]] = mechanics::has_mean_strain(model, c) ? Json(mean.strain[c]) : Json();
+    stress[tensor[c]] = mean.stress[c];
   }
-  return {{"strain", strain}, {"stress", stress}, {"solves", solution.macroscopic->solves}};
+  Json entry{{"strain", strain}, {"stress", stress}};
+  if (outcome.solution) entry["solves"] = outcome.solution->macroscopic->solves;
+  return entry;
 }
 
 Json performance(const model::Model& model, const Outcome& outcome, const RunMemory& memory) {
@@ -109,6 +110,11 @@ std::vector<std::string> history_columns(const model::Model& model) {
       columns.push_back(fmt::format("{}.{}.{} [{}]", probe.definition.name, mechanics::name_of(quantity), component,
                                     mechanics::unit_of(quantity)));
   }
+  if (model.definition.macroscopic) {
+    for (std::size_t c = 0; c < 6; ++c)
+      if (mechanics::has_mean_strain(model, c)) columns.push_back(fmt::format("mean strain.{} [1]", tensor[c]));
+    for (const std::string& component : tensor) columns.push_back(fmt::format("mean stress.{} [Pa]", component));
+  }
   for (const char* energy :
        {"elastic energy [J]", "kinetic energy [J]", "leapfrog energy [J]", "unbalanced-force ratio [1]"})
     columns.emplace_back(energy);
@@ -122,6 +128,11 @@ std::vector<double> history_row(const model::Model& model, double time, const me
   std::vector<double> row{time};
   if (model.definition.cracks_in_equilibrium()) row.push_back(measurement.balance.load_factor);
   for (const mechanics::ProbeValue& value : measurement.probes) row.insert(row.end(), value.begin(), value.end());
+  if (measurement.mean) {
+    for (std::size_t c = 0; c < 6; ++c)
+      if (mechanics::has_mean_strain(model, c)) row.push_back(measurement.mean->strain[c]);
+    row.insert(row.end(), measurement.mean->stress.begin(), measurement.mean->stress.end());
+  }
   const mechanics::Balance& balance = measurement.balance;
   row.insert(row.end(),
              {balance.elastic_energy, balance.kinetic_energy, balance.leapfrog_energy, balance.unbalanced_ratio()});
@@ -149,7 +160,7 @@ nlohmann::ordered_json summary(const model::Model& model, const model::State& st
            {"probes", probes},
            {"energy", {{"elastic", end.balance.elastic_energy}, {"kinetic", end.balance.kinetic_energy}}},
            {"performance", performance(model, outcome, memory)}};
-  if (outcome.solution && outcome.solution->macroscopic) all["macroscopic"] = macroscopic(model, *outcome.solution);
+  if (outcome.measurement.mean) all["macroscopic"] = macroscopic(model, outcome);
   if (outcome.modes) {
     // A mode has no size, hence neither energy nor values at probes.
     all.erase("probes");
@@ -161,12 +172,11 @@ nlohmann::ordered_json summary(const model::Model& model, const model::State& st
 
 namespace {
 
-std::string macroscopic_text(const statics::Macroscopic& macroscopic) {
-  const auto names = mechanics::component_names(model::ProbeDefinition::Quantity::strain);
+std::string macroscopic_text(const mechanics::MeanState& mean) {
   std::string strain = "  mean strain:", stress = "  mean stress:";
   for (std::size_t c = 0; c < 6; ++c) {
-    strain += fmt::format("{} {} = {:.6g}", c == 0 ? "" : ",", names[c], macroscopic.strain[c] + 0.0);
-    stress += fmt::format("{} {} = {:.6g}", c == 0 ? "" : ",", names[c], macroscopic.stress[c] + 0.0);
+    strain += fmt::format("{} {} = {:.6g}", c == 0 ? "" : ",", tensor[c], mean.strain[c] + 0.0);
+    stress += fmt::format("{} {} = {:.6g}", c == 0 ? "" : ",", tensor[c], mean.stress[c] + 0.0);
   }
   return strain + "\n" + stress + " Pa\n";
 }
@@ -189,7 +199,6 @@ std::string headline(const model::Model& model, const Outcome& outcome) {
                        outcome.seconds);
     if (!outcome.solution->free_motions.empty())
       text += fmt::format("  {}; the solution is without that motion\n", outcome.solution->free_motions);
-    if (outcome.solution->macroscopic) text += macroscopic_text(*outcome.solution->macroscopic);
   } else {
     text = fmt::format(
         "{} nodes, {} steps of {:.4g} s, unbalanced-force ratio {:.1e}, {:.3g} s ({:.3g} million node-steps/s)\n",
@@ -197,6 +206,7 @@ std::string headline(const model::Model& model, const Outcome& outcome) {
         outcome.seconds,
         1e-6 * static_cast<double>(model.node_count) * static_cast<double>(outcome.steps) / outcome.seconds);
   }
+  if (outcome.measurement.mean) text += macroscopic_text(*outcome.measurement.mean);
   if (!outcome.stop_reason.empty() && !outcome.path)
     text += fmt::format("  ended at t = {:.6g} s: {}\n", static_cast<double>(outcome.steps) * outcome.time_step,
                         escaped(outcome.stop_reason));

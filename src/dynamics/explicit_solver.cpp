@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "dynamics/energy_ledger.h"
+#include "dynamics/mean_strain.h"
 #include "dynamics/orientation.h"
 #include "dynamics/row_update.h"
 #include "failure/cracking.h"
@@ -43,6 +44,7 @@ struct ExplicitSolver::Implementation {
   mechanics::LoadRows loads;
   mechanics::RowIndex motion_rows;
   lattice::Field<double> inverse_inertia;
+  MeanStrain mean_strain;
   const double origin;  // time of step 0: times are origin + step dt, so that they do not gather rounding
 
   // Of a body that can crack.
@@ -58,6 +60,7 @@ struct ExplicitSolver::Implementation {
         loads(m),
         motion_rows(m.layout(), m.motions, [](const model::PrescribedMotion& p) { return p.node; }),
         inverse_inertia(inverse(m.layout(), m.inertia)),
+        mean_strain(m, s),
         origin(s.time - static_cast<double>(s.step) * step),
         cracking(cracks) {
     if (cracking != nullptr) ledger.emplace(model, state, motion_rows, dt);
@@ -69,6 +72,7 @@ struct ExplicitSolver::Implementation {
   }
 
   void take_initial_displacements() {
+    mean_strain.follow();
     for (const model::PrescribedMotion& motion : model.motions)
       if (!motion.is_velocity)
         state.displacement.component(motion.component)[motion.node] = motion.value * factor(motion, 0);
@@ -87,6 +91,7 @@ struct ExplicitSolver::Implementation {
     drift_borders();
     ++state.step;
     state.time = origin + static_cast<double>(state.step) * dt;
+    mean_strain.follow();
     if (cracking != nullptr) crack();
   }
 
@@ -96,6 +101,7 @@ struct ExplicitSolver::Implementation {
   }
   void end_exchange() {
     if (halo.active()) halo.end();
+    mean_strain.continue_ghosts();
   }
 
   // Takes rows through phases 2 to 7.

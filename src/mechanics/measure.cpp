@@ -138,17 +138,15 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
 
 // A periodic body under a mean strain E and mean stress S: the energy of its springs is that of the periodic part of
 // the displacements and V E : S / 2. Forces are compared with those of S on the faces of the box, as if it was cut out.
-void add_mean_strain(const model::Model& model, const model::State& state, Balance& balance) {
-  if (state.mean_strain == Tensor6{}) return;
-  const Tensor6 stress = mean_stress(model, state.displacement);
+void add_mean_strain(const model::Model& model, const MeanState& mean, Balance& balance) {
   const lattice::Grid& grid = model.lattice.grid;
   double work = 0;
-  for (std::size_t c = 0; c < 6; ++c) work += (c < 3 ? 1 : 2) * state.mean_strain[c] * stress[c];
+  for (std::size_t c = 0; c < 6; ++c) work += (c < 3 ? 1 : 2) * mean.strain[c] * mean.stress[c];
   const double cell = grid.d * grid.d * grid.d;
   const double energy = 0.5 * cell * static_cast<double>(grid.cell_count()) * work;
   balance.elastic_energy += energy;
   balance.leapfrog_energy += energy;
-  const auto& [xx, yy, zz, yz, xz, xy] = stress;
+  const auto& [xx, yy, zz, yz, xz, xy] = mean.stress;
   const std::array<Vec3, 3> tractions{Vec3{xx, xy, xz}, Vec3{xy, yy, yz}, Vec3{xz, yz, zz}};
   double square = balance.reference * balance.reference;
   for (std::size_t a = 0; a < 3; ++a) {
@@ -168,7 +166,8 @@ Balance Meter::balance(model::State& state, double dt) {
     add_row(model_, state, dt, j, k, forces, mask.of(j, k), sums);
   });
   Balance balance = sums.total(model_.communicator);
-  add_mean_strain(model_, state, balance);
+  if (model_.definition.macroscopic)
+    add_mean_strain(model_, {state.mean_strain, mean_stress(model_, state.displacement)}, balance);
   return balance;
 }
 
@@ -207,7 +206,10 @@ Measurement Meter::measure(model::State& state, double dt) {
   });
 
   Measurement result{sums.total(model_.communicator), {}};
-  add_mean_strain(model_, state, result.balance);
+  if (model_.definition.macroscopic) {
+    result.mean = {state.mean_strain, mean_stress(model_, state.displacement)};
+    add_mean_strain(model_, *result.mean, result.balance);
+  }
   if (surface_) surface_->update(state.displacement);
   for (const model::Probe& probe : model_.probes) {
     std::vector<std::array<double, 6>> reactions;

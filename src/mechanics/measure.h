@@ -32,9 +32,16 @@ struct Balance {
 /// Values of one probe: 1, 3 or 6 components, SI.
 using ProbeValue = std::vector<double>;
 
+/// A periodic body as a whole.
+struct MeanState {
+  Tensor6 strain{};  ///< zero where the body has no periods
+  Tensor6 stress{};  ///< over the box, voids too [Pa]
+};
+
 struct Measurement {
   Balance balance;
-  std::vector<ProbeValue> probes;  ///< by probe
+  std::vector<ProbeValue> probes;   ///< by probe
+  std::optional<MeanState> mean{};  ///< of a body with a macroscopic strain
 };
 
 /// Balance and probes at the state's time (collective). `dt`: the step whose midpoint velocities the state holds (0:

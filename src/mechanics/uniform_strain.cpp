@@ -43,8 +43,26 @@ void add_uniform_strain(const model::Model& model, const Tensor6& strain, lattic
                     });
 }
 
+Tensor6 given_strain(const model::Definition& definition, double time) {
+  const model::MacroscopicDefinition& asked = *definition.macroscopic;
+  const double factor = model::factor(asked.history, time);
+  Tensor6 strain;
+  for (std::size_t c = 0; c < 6; ++c) strain[c] = factor * asked.strain_of(c).value_or(0);
+  return strain;
+}
+
+bool has_mean_strain(const model::Model& model, std::size_t c) {
+  constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  const auto& periodic = model.lattice.grid.periodic;
+  return periodic[axes[c][0]] && periodic[axes[c][1]];
+}
+
 void exchange_displacements(const model::Model& model, const Tensor6& strain, lattice::Field<double>& u) {
   model.lattice.halo->exchange(u);
+  add_periods(model, strain, u);
+}
+
+void add_periods(const model::Model& model, const Tensor6& strain, lattice::Field<double>& u) {
   if (strain == Tensor6{}) return;
   const std::array<Vec3, 3> rows = rows_of(strain);
   const lattice::Layout& layout = model.layout();

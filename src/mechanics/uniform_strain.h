@@ -16,6 +16,15 @@ Vec3 uniform_displacement(const model::Model& model, const Tensor6& strain, cons
 /// Fills the ghosts of displacements, those across a period L with u + E L (collective).
 void exchange_displacements(const model::Model& model, const Tensor6& strain, lattice::Field<double>& u);
 
+/// Adds E L to ghosts across a period L, which an exchange gave u(x).
+void add_periods(const model::Model& model, const Tensor6& strain, lattice::Field<double>& u);
+
+/// The mean strain that the definition's [macroscopic] gives at a time; zero where it gives the stress.
+Tensor6 given_strain(const model::Definition& definition, double time);
+
+/// Whether component c of the strain has a mean: the body has periods along both of its axes.
+bool has_mean_strain(const model::Model& model, std::size_t c);
+
 /// Mean stress [Pa] over the whole box, voids too; ghosts of u set. The bits do not depend on the ranks (collective).
 Tensor6 mean_stress(const model::Model& model, const lattice::Field<double>& u);
 

@@ -37,10 +37,16 @@ void check_boundary(const Checker& check, const std::string& path, const Boundar
 void check_analysis(const Checker& check) {
   const Definition& definition = check.definition;
   const auto type = definition.analysis.type;
-  if (type != AnalysisDefinition::Type::statics)
-    check.fail("macroscopic", fmt::format("a macroscopic strain is followed in equilibrium alone; use analysis.type = "
-                                          "\"static\" instead of \"{}\", or leave [macroscopic] out",
-                                          choice_name(type)));
+  if (type == AnalysisDefinition::Type::modes)
+    check.fail("macroscopic",
+               "modes swing about the body as it is, so that a macroscopic strain changes nothing; leave [macroscopic] "
+               "out, or use another analysis.type than \"modes\"");
+  // A strain that moved until it met the stress would need an inertia, which the body does not have as a whole.
+  if (definition.analysis.stepped() && definition.macroscopic->stress)
+    check.fail("macroscopic.stress",
+               fmt::format("mean stresses are met in equilibrium alone; use analysis.type = \"static\" instead of "
+                           "\"{}\", or give the mean strain",
+                           choice_name(type)));
   if (definition.cracks())
     check.fail("macroscopic",
                "cracks are not followed under a macroscopic strain; set law = \"none\" in the fracture of the "

@@ -109,12 +109,10 @@ Eigen::VectorXd strains_for(const std::vector<std::size_t>& free, const Eigen::M
 SolveReport solve_macroscopic(const model::Model& model, model::State& state, const StaticOptions& options) {
   const model::MacroscopicDefinition& asked = *model.definition.macroscopic;
   const double factor = model::factor(asked.history, state.time);
-  Tensor6 strain{};
+  Tensor6 strain = mechanics::given_strain(model.definition, state.time);
   std::vector<std::size_t> free;
-  for (std::size_t c = 0; c < 6; ++c) {
-    strain[c] = factor * asked.strain_of(c).value_or(0);
+  for (std::size_t c = 0; c < 6; ++c)
     if (asked.stress_of(c)) free.push_back(c);
-  }
 
   Search search(model, state, options);
   search.require_balance();

@@ -38,8 +38,10 @@ TEST(MacroscopicInput, BrokenIsRefusedAtItsPlace) {
       {{"macroscopic.strain.xx=nan"}, "error: xx is the number nan; expected a finite number"},
       {{"macroscopic.history=[[1, 0], [1, 1]]"}, "error: time 1 s does not come after 1 s"},
       {{"analysis={type='dynamic', duration=1}"},
-       "case.toml:11:1: error: a macroscopic strain is followed in equilibrium"},
-      {{"analysis.type='modes'"}, "case.toml:11:1: error: a macroscopic strain is followed in equilibrium"},
+       "case.toml:13:10: error: mean stresses are met in equilibrium alone; use analysis.type = \"static\" instead of "
+       "\"dynamic\", or give the mean strain"},
+      {{"analysis.type='quasi-static'"}, "case.toml:13:10: error: mean stresses are met in equilibrium alone"},
+      {{"analysis.type='modes'"}, "case.toml:11:1: error: modes swing about the body as it is"},
       {{"lattice.springs='plain'"}, "case.toml:11:1: error: plain springs belong to no cell"},
       {{"material.rock.fracture={tensile_strength=1e6, fracture_energy=1e8}"},
        "case.toml:11:1: error: cracks are not followed under a macroscopic strain"},
@@ -53,7 +55,7 @@ TEST(MacroscopicInput, BrokenIsRefusedAtItsPlace) {
     const std::string whole = message.starts_with("error") ? "--set " + overrides.front() + ": " + message : message;
     EXPECT_EQ(message_of(block, overrides).substr(0, whole.size()), whole);
   }
-  EXPECT_EQ(inputs.size(), 14U);
+  EXPECT_EQ(inputs.size(), 15U);
 }
 
 }  // namespace
