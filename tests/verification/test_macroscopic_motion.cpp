@@ -153,6 +153,7 @@ TEST(MacroscopicMotion, DampedStepsEndInEquilibrium) {
   driver::Simulation at_once(definition, Communicator::self());
   const mechanics::Measurement expected = at_once.run({}).measurement;
   definition.analysis.type = model::AnalysisDefinition::Type::quasi_static;
+  definition.analysis.duration = 10000 * dt;
   definition.analysis.tolerance = 1e-8;
   strain(definition, {1e-3, 0, -2e-4, 3e-4, 0, 0}, {{0, 0}, {20 * dt, 1}});
   definition.analysis.damping = {model::DampingDefinition::Kind::local, 0.7, 0};
