@@ -31,6 +31,8 @@ void Simulation::step(std::int64_t count, const std::function<void()>& breathe) 
     if (cracking() != nullptr) cracking()->restore();
     stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, state(), time_step(), cracking());
   }
+  // The owner may have moved nodes since the last call.
+  if (cracking() != nullptr) cracking()->look_again();
   if (count > 0) lag_ = time_step();
   for (std::int64_t s = 0; s < count; ++s) {
     stepper_->step();

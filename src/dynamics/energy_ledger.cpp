@@ -12,14 +12,15 @@ EnergyLedger::EnergyLedger(const model::Model& model, model::State& state, const
       dt_(dt),
       damping_(model.definition.analysis.damping.kind != model::DampingDefinition::Kind::none) {
   for (auto* rows : {&internal_, &velocity_})
-    for (auto& row : *rows) row.resize(static_cast<std::size_t>(model.layout().owned()[0]));
+    for (auto& row : *rows) row.resize(static_cast<std::size_t>(model.layout().owned()[0]) + row_width);
 }
 
-void EnergyLedger::open(std::int64_t j, std::int64_t k, double* const* force) {
+void EnergyLedger::open(std::int64_t j, std::int64_t k, double* const* force, bool loaded) {
   const std::int64_t n = model_.layout().index(0, j, k), count = model_.layout().owned()[0];
+  loaded_ = loaded;
   for (int c = 0; c < model_.components(); ++c) {
     const auto a = static_cast<std::size_t>(c);
-    std::copy_n(force[c], count, internal_[a].begin());
+    if (loaded) std::copy_n(force[c], count, internal_[a].begin());
     std::copy_n(state_.velocity.component(c) + n, count, velocity_[a].begin());
   }
 }
@@ -28,16 +29,12 @@ void EnergyLedger::close(std::int64_t j, std::int64_t k, double* const* force) {
   const std::int64_t n = model_.layout().index(0, j, k), count = model_.layout().owned()[0];
   double *const given_row = state_.work.component(given) + n, *const damped_row = state_.work.component(damped) + n;
   for (int c = 0; c < model_.components(); ++c) {
-    const double* const internal = internal_[static_cast<std::size_t>(c)].data();
     const double* const before = velocity_[static_cast<std::size_t>(c)].data();
     const double* const after = state_.velocity.component(c) + n;
-    const double* const inertia = model_.inertia.component(c < 3 ? 0 : 1) + n;
-    // Loads; and what changed the momentum beside them and the springs: damping.
-    for (std::int64_t i = 0; i < count; ++i)
-      given_row[i] += (force[c][i] - internal[i]) * (0.5 * dt_ * (before[i] + after[i]));
-    if (!damping_) continue;
-    for (std::int64_t i = 0; i < count; ++i)
-      damped_row[i] -= (inertia[i] * (after[i] - before[i]) - dt_ * force[c][i]) * (0.5 * (before[i] + after[i]));
+    if (loaded_)
+      update_.work(dt_, count, force[c], internal_[static_cast<std::size_t>(c)].data(), before, after, given_row);
+    if (damping_)
+      update_.damp(dt_, count, force[c], model_.inertia.component(c < 3 ? 0 : 1) + n, before, after, damped_row);
   }
 
   // On prescribed components it was the support.

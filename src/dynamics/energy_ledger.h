@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "dynamics/row_update.h"
 #include "koshi/model.h"
 #include "mechanics/loads.h"
 
@@ -15,8 +16,8 @@ class EnergyLedger {
  public:
   EnergyLedger(const model::Model& model, model::State& state, const mechanics::RowIndex& motion_rows, double dt);
 
-  /// Before loads are added to the forces of row (j, k) and its velocities change.
-  void open(std::int64_t j, std::int64_t k, double* const* force);
+  /// Before loads are added to the forces of row (j, k), if there are any, and its velocities change.
+  void open(std::int64_t j, std::int64_t k, double* const* force, bool loaded);
   /// After both; `force` with loads.
   void close(std::int64_t j, std::int64_t k, double* const* force);
 
@@ -29,6 +30,8 @@ class EnergyLedger {
   const mechanics::RowIndex& motion_rows_;
   double dt_;
   bool damping_;
+  const RowUpdate& update_ = row_update();
+  bool loaded_ = false;                                     ///< the row, with more than its springs
   std::array<std::vector<double>, 6> internal_, velocity_;  ///< of the row, before
 };
 

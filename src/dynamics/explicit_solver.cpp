@@ -110,7 +110,7 @@ struct ExplicitSolver::Implementation {
         state.displacement, rows, [this](std::int64_t n) { fetch(n); },  // 2. internal force
         [&](std::int64_t j, std::int64_t k, double* const* force) {
           if (cracking != nullptr) cracking->add_faces(j, k, force);
-          if (ledger) ledger->open(j, k, force);
+          if (ledger) ledger->open(j, k, force, loads.touch(j, k));
           loads.add(j, k, force);      // 3. add loads
           damp_and_kick(j, k, force);  // 4. and 5.
           impose_motion(j, k);         // 6.

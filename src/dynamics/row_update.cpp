@@ -4,13 +4,11 @@
 namespace koshi::dynamics::KOSHI_ISA {
 namespace {
 
-constexpr std::int64_t width = 8;
-
 void kick(const Kick& k, std::int64_t nodes, const double* __restrict force, const double* __restrict inverse_mass,
           double* __restrict velocity) {
   const double keep = k.keep, gain = k.gain, alpha = k.alpha;
-  for (std::int64_t begin = 0; begin < nodes; begin += width) {
-    for (std::int64_t i = begin; i < begin + width; ++i) {
+  for (std::int64_t begin = 0; begin < nodes; begin += row_width) {
+    for (std::int64_t i = begin; i < begin + row_width; ++i) {
       const double F = force[i], v = velocity[i];
       const double resisting = alpha * (F < 0 ? -F : F);
       const double damped = F - (v > 0 ? resisting : v < 0 ? -resisting : 0.0);
@@ -20,12 +18,27 @@ void kick(const Kick& k, std::int64_t nodes, const double* __restrict force, con
 }
 
 void drift(double dt, std::int64_t nodes, const double* __restrict velocity, double* __restrict displacement) {
-  for (std::int64_t begin = 0; begin < nodes; begin += width)
-    for (std::int64_t i = begin; i < begin + width; ++i) displacement[i] += dt * velocity[i];
+  for (std::int64_t begin = 0; begin < nodes; begin += row_width)
+    for (std::int64_t i = begin; i < begin + row_width; ++i) displacement[i] += dt * velocity[i];
+}
+
+void work(double dt, std::int64_t nodes, const double* __restrict force, const double* __restrict internal,
+          const double* __restrict before, const double* __restrict after, double* __restrict given) {
+  const double half = 0.5 * dt;
+  for (std::int64_t begin = 0; begin < nodes; begin += row_width)
+    for (std::int64_t i = begin; i < begin + row_width; ++i)
+      given[i] += (force[i] - internal[i]) * (half * (before[i] + after[i]));
+}
+
+void damp(double dt, std::int64_t nodes, const double* __restrict force, const double* __restrict mass,
+          const double* __restrict before, const double* __restrict after, double* __restrict damped) {
+  for (std::int64_t begin = 0; begin < nodes; begin += row_width)
+    for (std::int64_t i = begin; i < begin + row_width; ++i)
+      damped[i] -= (mass[i] * (after[i] - before[i]) - dt * force[i]) * (0.5 * (before[i] + after[i]));
 }
 
 }  // namespace
 
-extern const RowUpdate functions{kick, drift};
+extern const RowUpdate functions{kick, drift, work, damp};
 
 }  // namespace koshi::dynamics::KOSHI_ISA

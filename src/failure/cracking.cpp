@@ -14,24 +14,29 @@ constexpr double margin = 1 - 1e-5;
 }  // namespace
 
 Cracking::Cracking(model::Model& model, model::State& state)
-    : model_(model), state_(state), strain_rows_(strain_rows()), limit_(model.layout(), 1) {
+    : model_(model), state_(state), rows_(strain_rows()), limit_(model.layout(), 1) {
   const lattice::Layout& layout = model.layout();
   if (model.lattice.factor.components() == 0) model::make_factors(model.lattice, [](const Int3&) { return 1.0F; });
   whole_ = model.lattice.factor;
   laws_.resize(1);
   bounds_.resize(1);
+  per_strain_.resize(1, 1);
   for (const model::MaterialDefinition& material : model.definition.materials) {
     laws_.emplace_back();
     bounds_.emplace_back();
+    per_strain_.push_back(1);
     if (!material.cracks()) continue;
     laws_.back().emplace(material.elastic, *material.fracture, model.lattice.grid.d);
     bounds_.back() = laws_.back()->bound();
+    per_strain_.back() = 0.5 * model.lattice.grid.d / bounds_.back().slope();
   }
 
   const auto cells = static_cast<std::size_t>(layout.owned()[0] + 1);
   mean_.resize(cells);
   radius_.resize(cells);
   breakable_.resize(cell_row(layout, layout.owned()[1], layout.owned()[2]), 0);
+  reach_.resize(breakable_.size());
+  moved_.resize(static_cast<std::size_t>((layout.owned()[1] + 2) * (layout.owned()[2] + 2)));
   touched_.resize(static_cast<std::size_t>(layout.owned()[1] * layout.owned()[2]), 0);
   std::size_t breakable = 0;
   lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto j, auto k, auto n) {
@@ -40,6 +45,7 @@ Cracking::Cracking(model::Model& model, model::State& state)
     ++breakable;
   });
   cracked_.reserve(breakable);
+  pressed_.reserve(breakable);
   restore();
 }
 
@@ -47,7 +53,9 @@ void Cracking::restore() {
   const lattice::Layout& layout = model_.layout();
   model_.lattice.halo->exchange(state_.crack);
   model_.lattice.halo->exchange(state_.displacement);
-  clear_faces();
+  state_.face_force.zero();
+  pressed_.clear();
+  look_again();
   cracked_.clear();
   lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto, auto, auto n) {
     limit_.component(0)[n] = std::numeric_limits<float>::infinity();
@@ -103,22 +111,45 @@ void Cracking::set_factor(std::int64_t n, const Crack& crack) {
   limit_.component(0)[n] = static_cast<float>(below);
 }
 
+void Cracking::look_again() { std::fill(reach_.begin(), reach_.end(), 0); }
+
 void Cracking::follow(double dt) {
   const Int3& owned = model_.layout().owned();
   const std::size_t before = cracked_.size();
   clear_faces();
+  spend_reach(dt);
   for (std::int64_t k = -1; k < owned[2]; ++k)
-    for (std::int64_t j = -1; j < owned[1]; ++j)
-      if (breakable_[cell_row(model_.layout(), j, k)] != 0) follow_row(j, k, dt);
+    for (std::int64_t j = -1; j < owned[1]; ++j) {
+      const std::size_t row = cell_row(model_.layout(), j, k);
+      if (breakable_[row] != 0 && !(reach_[row] > 0)) follow_row(j, k, dt);
+    }
   // Forces of faces are added up in the order of cells in memory, whoever cracked first.
   if (cracked_.size() != before) std::sort(cracked_.begin(), cracked_.end());
   close_faces(true);
 }
 
+// A cell cannot reach its limit before its nodes have moved so far that they could strain it by what it lacks: nodes
+// that move by U at most change its strain by no more than 2 U / d (theory, 12).
+void Cracking::spend_reach(double dt) {
+  const lattice::Layout& layout = model_.layout();
+  const Int3& owned = layout.owned();
+  for (std::int64_t k = -1, row = 0; k <= owned[2]; ++k)
+    for (std::int64_t j = -1; j <= owned[1]; ++j, ++row)
+      moved_[static_cast<std::size_t>(row)] =
+          dt * std::sqrt(rows_.largest_square(state_.velocity.component(0) + layout.index(-1, j, k),
+                                              state_.velocity.stride(), owned[0] + 2));
+  for (std::int64_t k = -1; k < owned[2]; ++k)
+    for (std::int64_t j = -1; j < owned[1]; ++j) {
+      const double* const moved = moved_.data() + (j + 1) + (owned[1] + 2) * (k + 1);
+      const double* const above = moved + owned[1] + 2;
+      reach_[cell_row(layout, j, k)] -= std::max({moved[0], moved[1], above[0], above[1]});
+    }
+}
+
 void Cracking::look_at_row(std::int64_t j, std::int64_t k) {
   const lattice::Layout& layout = model_.layout();
   const double* u = state_.displacement.component(0) + layout.index(-1, j, k);
-  strain_rows_(
+  rows_.strain(
       {{u, u + layout.pitch(), u + layout.plane(), u + layout.plane() + layout.pitch()}, state_.displacement.stride()},
       0.25 / model_.lattice.grid.d, layout.owned()[0] + 1, mean_.data(), radius_.data());
 }
@@ -128,10 +159,14 @@ void Cracking::follow_row(std::int64_t j, std::int64_t k, double dt) {
   look_at_row(j, k);
   const std::uint16_t* material = model_.lattice.cell.component(0) + first;
   const float* below = limit_.component(0) + first;
+  double reach = std::numeric_limits<double>::infinity();
   for (std::int64_t i = 0; i < cells; ++i) {
     const double bound = bounds_[material[i]](mean_[static_cast<std::size_t>(i)], radius_[static_cast<std::size_t>(i)]);
-    if (bound > below[i]) crack_further(first + i, dt);
+    const double lacking = below[i] - bound;
+    reach = std::min(reach, lacking * per_strain_[material[i]]);
+    if (lacking < 0) crack_further(first + i, dt);
   }
+  reach_[cell_row(model_.layout(), j, k)] = reach;
 }
 
 // The energy [J/m^3] that the cell's springs, intact, would hold in the step that has just been made: u.K.u'/2 with the

@@ -29,8 +29,11 @@ class Cracking {
   void restore();
 
   /// Cracks what the state's displacements crack. Ghosts of displacement and velocity must be up to date; dt: the step
-  /// [s] that led there. Takes no memory.
+  /// [s] that led there, by the state's velocities. Takes no memory.
   void follow(double dt);
+
+  /// To be called when displacements were changed in another way than by the steps that follow() is told of.
+  void look_again();
 
   /// Raises the damage of owned cells to `wanted` where that is above what they have, with cracks of unit normal n;
   /// cells that have cracked keep their normal (collective). Throws InputError for a value outside 0 ... 1, or above 0
@@ -52,6 +55,7 @@ class Cracking {
   /// Fills mean_ and radius_ for the row of cells (j, k), from i = -1 on.
   void look_at_row(std::int64_t j, std::int64_t k);
   void follow_row(std::int64_t j, std::int64_t k, double dt);
+  void spend_reach(double dt);
   void crack_further(std::int64_t n, double dt);
   float factor(std::int64_t n, double damage) const;
   /// The part of a cell whose faces touch.
@@ -64,7 +68,10 @@ class Cracking {
   void clear_faces();
   void close_faces(bool sliding);
 
+  void slide(std::int64_t n, const Tensor6& strain, Crack& crack);
+
   Crack load(std::int64_t n) const;
+  Crack load_faces(std::int64_t n) const;
   void store(std::int64_t n, const Crack& crack);
   const CellLaw& law(std::int64_t n) const { return *laws_[model_.lattice.cell.component(0)[n]]; }
 
@@ -87,12 +94,16 @@ class Cracking {
   model::State& state_;
   std::vector<std::optional<CellLaw>> laws_;  ///< by material index
   std::vector<Bound> bounds_;                 ///< by material index
-  StrainRows strain_rows_;
+  std::vector<double> per_strain_;            ///< by material index: the reach that a lacking strain of 1 gives [m]
+  const StrainRows& rows_;
   std::vector<double> mean_, radius_;  ///< of a row
   lattice::Field<float> whole_;        ///< factors of the cells without cracks
   lattice::Field<float> limit_;        ///< equivalent strain below which a cell does not crack further
   std::vector<char> breakable_;        ///< rows of cells with a material that can crack
+  std::vector<double> reach_;  ///< of rows of cells: how far nodes may move before a cell can be at its limit [m]
+  std::vector<double> moved_;  ///< of rows of nodes, (-1, -1) first: the longest way of a node in a step [m]
   std::vector<std::int64_t> cracked_;  ///< cracked cells, ascending
+  std::vector<std::int64_t> pressed_;  ///< of these, those whose faces carry something
   std::vector<char> touched_;          ///< rows of owned nodes next to a cracked cell
 };
 

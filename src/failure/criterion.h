@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "failure/principal.h"
 #include "koshi/fracture.h"
@@ -13,6 +14,9 @@ namespace koshi::failure {
 struct Bound {
   double p_1 = 0, r_1 = 0, p_2 = 0, r_2 = 0;
   double operator()(double p, double r) const { return std::max(p_1 * p + r_1 * r, p_2 * p + r_2 * r); }
+  /// The most that the bound can change with the tensor, over the size |A| of the change: |dp| is the spherical part's
+  /// size over sqrt(3), |dr| the deviator's times sqrt(2/3).
+  double slope() const { return std::sqrt(std::max(p_1 * p_1 + 2 * r_1 * r_1, p_2 * p_2 + 2 * r_2 * r_2) / 3); }
 };
 
 class Criterion {

@@ -1,6 +1,7 @@
 // Compiled once per instruction set with KOSHI_ISA set to its name.
 #include "failure/strain_rows.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace koshi::failure::KOSHI_ISA {
@@ -31,8 +32,24 @@ void rows(const StrainRow& row, double scale, std::int64_t cells, double* __rest
   }
 }
 
+double largest_square(const double* x, std::ptrdiff_t component, std::int64_t count) {
+  // Lanes of their own, since a maximum in order cannot be taken by vectors.
+  constexpr std::int64_t lanes = 16;
+  double largest[lanes]{};
+  const double *const y = x + component, *const z = y + component;
+  const auto square = [=](std::int64_t i) { return x[i] * x[i] + y[i] * y[i] + z[i] * z[i]; };
+  std::int64_t i = 0;
+  for (; i + lanes <= count; i += lanes)
+    for (std::int64_t l = 0; l < lanes; ++l) {
+      const double s = square(i + l);
+      largest[l] = s > largest[l] ? s : largest[l];
+    }
+  for (; i < count; ++i) largest[0] = square(i) > largest[0] ? square(i) : largest[0];
+  return *std::max_element(largest, largest + lanes);
+}
+
 }  // namespace
 
-extern const StrainRows function{rows};
+extern const StrainRows functions{rows, largest_square};
 
 }  // namespace koshi::failure::KOSHI_ISA

@@ -1,5 +1,5 @@
-// A first look at the strain of a row of cells: two numbers from which the criterion's bound follows. The same source
-// (strain_rows.cpp) is compiled for several instruction sets; the widest one the processor has is chosen at run time.
+// First looks at rows of cells and nodes: how strained, how fast. The same source (strain_rows.cpp) is compiled for
+// several instruction sets; the widest one the processor has is chosen at run time.
 #pragma once
 
 #include <cstddef>
@@ -14,10 +14,14 @@ struct StrainRow {
   std::ptrdiff_t component;
 };
 
-/// Mean strain tr/3 and radius of the deviator (theory, 12: p and r) of cells 0 <= i < cells; `scale` is 1/(4 d).
-using StrainRows = void (*)(const StrainRow& row, double scale, std::int64_t cells, double* mean, double* radius);
+struct StrainRows {
+  /// Mean strain tr/3 and radius of the deviator (theory, 12: p and r) of cells 0 <= i < cells; `scale` is 1/(4 d).
+  void (*strain)(const StrainRow& row, double scale, std::int64_t cells, double* mean, double* radius);
+  /// The largest square of a vector; components of one lie `component` apart.
+  double (*largest_square)(const double* x, std::ptrdiff_t component, std::int64_t count);
+};
 
-/// The function for this processor.
-StrainRows strain_rows();
+/// Functions for this processor.
+const StrainRows& strain_rows();
 
 }  // namespace koshi::failure

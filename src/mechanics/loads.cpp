@@ -1,5 +1,7 @@
 #include "mechanics/loads.h"
 
+#include <algorithm>
+
 #include "koshi/vector3.h"
 #include "model/profiled_loads.h"
 
@@ -24,6 +26,12 @@ void LoadRows::set_time(double t) {
     if (profile_[l]) model::set_forces(*model_.loads[l].profiled, *profile_[l], t, scratch_, forces_[l]);
     acceleration_ = acceleration_ + factor_[l] * model_.loads[l].acceleration;
   }
+}
+
+bool LoadRows::touch(std::int64_t j, std::int64_t k) const {
+  const std::int64_t row = j + model_.layout().owned()[1] * k;
+  return acceleration_ != Vec3{} ||
+         std::ranges::any_of(rows_, [&](const RowIndex& rows) { return rows.begin(row) != rows.end(row); });
 }
 
 void LoadRows::add(std::int64_t j, std::int64_t k, double* const* force) const {

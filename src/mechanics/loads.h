@@ -37,6 +37,8 @@ class LoadRows {
   explicit LoadRows(const model::Model& model);
   /// Sets the time at which the loads' histories are taken.
   void set_time(double t);
+  /// Whether anything is added to row (j, k).
+  bool touch(std::int64_t j, std::int64_t k) const;
   /// Adds the loads on row (j, k) to its forces, force[c] pointing to node i = 0.
   void add(std::int64_t j, std::int64_t k, double* const* force) const;
 
