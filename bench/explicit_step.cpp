@@ -3,10 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "failure/bond_breaking.h"
 #include "failure/cracking.h"
 #include "koshi/dynamics.h"
 #include "koshi/model.h"
@@ -18,8 +19,9 @@ using lattice::CellType;
 using material::Calibration;
 using material::Kinematics;
 
-// Whether the cells are looked at for cracks, and whether one in a hundred has one.
-enum class Cracks { none, looked_for, some };
+// Whether the cells are looked at for cracks, and whether one in a hundred has one; whether bonds are, and one in a
+// hundred is broken.
+enum class Cracks { none, looked_for, some, bonds_looked_for, some_bonds };
 
 struct Choice {
   const char* name;
@@ -45,6 +47,10 @@ constexpr Choice choices[] = {
      Kinematics::rotational, 0.18, 1, false, Cracks::looked_for},
     {"Cube-III volumetric, rotational, 1 % of the cells cracked", CellType::cube_iii, Calibration::bending_exact,
      Kinematics::rotational, 0.18, 1, false, Cracks::some},
+    {"Cube-III, rotational, bonds may break", CellType::cube_iii, Calibration::isotropic, Kinematics::rotational, 0.18,
+     1, false, Cracks::bonds_looked_for},
+    {"Cube-III, rotational, 1 % of the bonds broken", CellType::cube_iii, Calibration::isotropic,
+     Kinematics::rotational, 0.18, 1, false, Cracks::some_bonds},
     {"Cube-III volumetric, rotational, 2 materials mixed", CellType::cube_iii, Calibration::bending_exact,
      Kinematics::rotational, 0.18, 2},
     {"Cube-III volumetric, rotational, 3 materials mixed", CellType::cube_iii, Calibration::bending_exact,
@@ -58,6 +64,10 @@ constexpr Choice choices[] = {
     {"Cube-III volumetric, least-squares, 1000 materials mixed", CellType::cube_iii, Calibration::bending_exact,
      Kinematics::least_squares, 0.18, 1000},
 };
+
+bool breaks_bonds(const Choice& choice) {
+  return choice.cracks == Cracks::bonds_looked_for || choice.cracks == Cracks::some_bonds;
+}
 
 model::Definition block(const Choice& choice, int nodes) {
   model::Definition definition;
@@ -90,6 +100,7 @@ model::Definition block(const Choice& choice, int nodes) {
   // Far stronger than the motion asks for: no cell cracks while the clock runs.
   material::Fracture strong;
   strong.tensile_strength = strong.fracture_energy = 1e6;
+  if (breaks_bonds(choice)) strong.law = material::FractureLaw::bonds;
   if (choice.cracks != Cracks::none)
     for (model::MaterialDefinition& material : definition.materials) material.fracture = strong;
   model::BoundaryDefinition bottom;
@@ -112,6 +123,16 @@ void crack_some(const model::Model& model, model::State& motion) {
   });
 }
 
+// Breaks the bonds of one layer of a hundred, those that cross the plane above every hundredth layer of nodes.
+void break_some(model::State& motion, const lattice::Layout& layout) {
+  unsigned across = 0;
+  for (int slot = 0; slot < lattice::slot_count; ++slot)
+    across |= (lattice::slots[static_cast<std::size_t>(slot)].s[2] != 0 ? 1U : 0U) << slot;
+  lattice::for_each_owned(layout, [&](auto, auto, auto k, auto n) {
+    if (k % 100 == 20) motion.bonds.component(0)[n] = across;
+  });
+}
+
 void explicit_step(benchmark::State& state, const Choice& choice) {
   const int nodes = static_cast<int>(state.range(0));
   model::Model model = model::make_model(block(choice, nodes), Communicator::world());
@@ -121,9 +142,13 @@ void explicit_step(benchmark::State& state, const Choice& choice) {
       motion.velocity.component(c)[n] = 1e-6 * static_cast<double>((i + 2 * j + 3 * k + c) % 7 - 3);
     });
   if (choice.cracks == Cracks::some) crack_some(model, motion);
-  std::optional<failure::Cracking> cracking;
-  if (choice.cracks != Cracks::none) cracking.emplace(model, motion);
-  dynamics::ExplicitSolver solver(model, motion, 2e-7, cracking ? &*cracking : nullptr);
+  if (choice.cracks == Cracks::some_bonds) break_some(motion, model.layout());
+  std::unique_ptr<failure::Fracturing> cracking;
+  if (breaks_bonds(choice))
+    cracking = std::make_unique<failure::BondBreaking>(model, motion);
+  else if (choice.cracks != Cracks::none)
+    cracking = std::make_unique<failure::Cracking>(model, motion);
+  dynamics::ExplicitSolver solver(model, motion, 2e-7, cracking.get());
   solver.step();
   // The median step: others may use the machine now and then, and a rank waits for its neighbours.
   std::vector<double> seconds;
@@ -133,7 +158,9 @@ void explicit_step(benchmark::State& state, const Choice& choice) {
     seconds.push_back(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   std::nth_element(seconds.begin(), seconds.begin() + static_cast<std::ptrdiff_t>(seconds.size() / 2), seconds.end());
-  state.counters["Mnode-steps/s"] = 1e-6 * static_cast<double>(model.node_count) / seconds[seconds.size() / 2];
+  const double rate = 1e-6 * static_cast<double>(model.node_count) / seconds[seconds.size() / 2];
+  state.counters["Mnode-steps/s"] = rate;
+  if (breaks_bonds(choice)) state.counters["Mbonds/s"] = lattice::slot_count * rate;
 }
 
 const bool registered = [] {

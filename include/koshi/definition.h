@@ -360,6 +360,8 @@ struct Definition {
   bool cuts() const { return body.surface == BodyDefinition::Surface::cut && !regions.empty(); }
   /// Whether some material can crack.
   bool cracks() const;
+  /// Whether it is bonds that break where a material can crack.
+  bool breaks_bonds() const;
   /// Whether this is an equilibrium that follows its cracks event by event.
   bool cracks_in_equilibrium() const { return analysis.type == AnalysisDefinition::Type::statics && cracks(); }
   /// Whether the stiffness of some material scatters.

@@ -6,7 +6,7 @@
 #include "koshi/model.h"
 
 namespace koshi::failure {
-class Cracking;
+class Fracturing;
 }
 
 namespace koshi::dynamics {
@@ -18,7 +18,7 @@ class ExplicitSolver {
   /// `dt` [s] > 0; stability is the caller's concern (see mechanics::stable_step). Model and state must outlive the
   /// solver. A state at time 0 first takes the prescribed displacements of that time.
   /// `cracking`: follows the cracks of a body that can crack; it too must outlive the solver.
-  ExplicitSolver(const model::Model& model, model::State& state, double dt, failure::Cracking* cracking = nullptr);
+  ExplicitSolver(const model::Model& model, model::State& state, double dt, failure::Fracturing* cracking = nullptr);
   ~ExplicitSolver();
 
   void step();        ///< one step of dt

@@ -138,7 +138,12 @@ struct State {
   /// and its friction took [J], time [s] at which its damage passed `parted` (0: not, or before the run), 1 if it began
   /// by the shear limit; no components unless a material can crack.
   lattice::Field<double> crack;
-  /// In the same case, of nodes: forces of closed crack faces [N]; follows from the others.
+  /// Where bonds can break, of nodes: bits of the forward bonds that are broken, and of those that their shear broke,
+  /// as SpringLattice::broken. In State::crack damage then is the share of a cell's bonds that are broken, 1 once they
+  /// hold its corners together no longer; the strain is 1 in cells with broken bonds; onset to taken and slip are 0.
+  lattice::Field<double> bonds;
+  /// Where a material can crack, of nodes: forces of closed crack faces [N]; where bonds can break what these change in
+  /// forces [N] and moments [N m]; follows from the others.
   lattice::Field<double> face_force;
   /// In the same case, of nodes: energy that loads and supports gave, and that damping took [J].
   lattice::Field<double> work;

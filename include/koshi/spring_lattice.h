@@ -36,6 +36,9 @@ struct SpringLattice {
   /// Part of a cell's volume that is inside the body; no components where surfaces cut no cells. Factors have it in
   /// them. Frozen.
   lattice::Field<float> fraction;
+  /// Of nodes: bit `slot` of the forward bonds that are broken, all of their cells' shares; no components where bonds
+  /// do not break. Measures and make_bonds() leave them out, the cell kernel does not.
+  lattice::Field<std::uint16_t> broken;
   std::vector<material::Springs> springs;  ///< by material index; entry 0 (empty) is zero
   /// Plain springs only, known on owned and ghost nodes: stiffness of forward bonds, component 2 slot: kn [N/m],
   /// 2 slot + 1: kt [N/m].
@@ -47,6 +50,10 @@ struct SpringLattice {
   /// Of the cell at index n, 1 where there is no field of factors.
   double factor_of(std::int64_t n) const {
     return factor.components() == 0 ? 1 : static_cast<double>(factor.component(0)[n]);
+  }
+  /// Whether the forward bond of the node at index n in this slot is broken.
+  bool is_broken(int slot, std::int64_t n) const {
+    return broken.components() != 0 && (broken.component(0)[n] >> slot & 1) != 0;
   }
   /// Of the cell at index n, 1 where there is no field of fractions.
   double fraction_of(std::int64_t n) const {

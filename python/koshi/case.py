@@ -81,8 +81,8 @@ class Material:
     density: Quantity
     """[kg/m^3] > 0"""
     fracture: Mapping[str, Quantity | Mapping[str, Quantity]] | None = None
-    """what it takes to crack: tensile_strength [Pa], fracture_energy [J/m^2], law, softening, cohesion [Pa],
-    friction_angle and residual_friction_angle [rad], strength_scatter; default: it never does"""
+    """how it cracks: law, tensile_strength [Pa], fracture_energy [J/m^2], softening, cohesion [Pa], friction_angle and
+    residual_friction_angle [rad], strength_scatter, of bonds critical_stretch and critical_shear; default: never"""
     stiffness_scatter: Mapping[str, Quantity] | None = None
     """how E differs from cell to cell: distribution with modulus or variation, correlation_length [m], seed; default:
     not"""

@@ -9,6 +9,7 @@
 #include "driver/schedule.h"
 #include "driver/simulation.h"
 #include "driver/warnings.h"
+#include "failure/bond_limits.h"
 #include "koshi/input.h"
 #include "koshi/modes.h"
 #include "koshi/run.h"
@@ -50,6 +51,21 @@ std::string explicit_part(const model::Model& model) {
                             duration(1.5 * steps * seconds_per_pass(model, kernel)));
 }
 
+// When bonds break, and the tension of an even strain at which the first of them do so along an axis.
+std::string bonds_part(const model::Model& model) {
+  std::string text;
+  for (std::size_t m = 1; m < model.lattice.springs.size(); ++m) {
+    const model::MaterialDefinition& material = model.definition.materials[m - 1];
+    if (!material.cracks()) continue;
+    const failure::BondLimits limits = failure::bond_limits(*material.fracture, model.lattice.springs[m]);
+    text += fmt::format("bonds         of \"{}\" break at a stretch of {:.4g}", escaped(material.name), limits.stretch);
+    if (material.fracture->critical_shear) text += fmt::format(" or a shear of {:.4g}", limits.shear);
+    text += fmt::format(", the first along an axis at a tension of {:.3g} Pa with this spacing\n",
+                        limits.stretch * material.elastic.youngs_modulus);
+  }
+  return text;
+}
+
 std::string modes_part(const model::Model& model) {
   const model::AnalysisDefinition& analysis = model.definition.analysis;
   const std::string free = modes::free_motions(model, analysis);
@@ -78,6 +94,7 @@ std::string check(const model::Definition& definition, const Communicator& commu
                       model.motion_count, (libraries + body) / 1e9, body / 1e9);
   if (definition.analysis.stepped()) text += explicit_part(model);
   if (definition.analysis.type == model::AnalysisDefinition::Type::modes) text += modes_part(model);
+  if (definition.breaks_bonds()) text += bonds_part(model);
   for (const ScatterReport& report : scatter_reports(model))
     text += "scatter       " + escaped(driver::text(report)) + "\n";
   for (const std::string& warning : found) text += "warning       " + escaped(warning) + "\n";

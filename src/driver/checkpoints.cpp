@@ -32,8 +32,9 @@ constexpr std::array stop_signals{SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU, SI
 
 // Name of the step's length among the numbers of a checkpoint.
 constexpr const char* time_step_name = "time_step";
-// 1 among them: the checkpoint has the fields of cracks.
+// 1 among them: the checkpoint has the fields of cracks; of broken bonds.
 constexpr const char* cracks_name = "cracks";
+constexpr const char* bonds_name = "bonds";
 
 // 1 among them: displacements of a periodic body under a mean strain.
 constexpr const char* mean_strain_name = "mean_strain";
@@ -58,6 +59,7 @@ std::vector<io::CheckpointField> extra_fields(model::State& state) {
     fields.push_back({"crack", &state.crack});
     fields.push_back({"work", &state.work});
   }
+  if (state.bonds.components() != 0) fields.push_back({"bonds", &state.bonds});
   return fields;
 }
 
@@ -146,6 +148,7 @@ void Checkpoints::write_to(const std::filesystem::path& directory, model::State&
   info.case_text = case_text_;
   if (state.time_step > 0) info.scalars[time_step_name] = state.time_step;
   if (state.crack.components() != 0) info.scalars[cracks_name] = 1;
+  if (state.bonds.components() != 0) info.scalars[bonds_name] = 1;
   if (state.peak_force > 0) info.scalars[peak_force_name] = state.peak_force;
   if (state.mean_strain != std::array<double, 6>{}) info.scalars[mean_strain_name] = 1;
   const auto fields = extra_fields(state);
@@ -167,12 +170,21 @@ void start_from(const std::filesystem::path& directory, const model::Model& mode
                      fmt::format("{} holds a body that can crack, and no material of this case can; give them the "
                                  "fracture they had",
                                  directory.native()));
+  const bool by_bonds = state.bonds.components() != 0;
+  if (cracked && by_bonds != header.scalars.contains(bonds_name))
+    throw InputError(model.definition.places.find("analysis.start_from"),
+                     fmt::format("{} holds a body whose {}; the fracture of this case must have the same law",
+                                 directory.native(), by_bonds ? "cells crack" : "bonds break"));
   std::vector<io::CheckpointField> cracks;
   if (cracked) cracks.push_back({"crack", &state.crack});
+  if (cracked && by_bonds) cracks.push_back({"bonds", &state.bonds});
   io::read_checkpoint(directory, model, header.case_text, state, cracks);
   // Cracks of this case come to those that are there; when those opened was another run's time.
   if (state.crack.components() != 0) {
-    model::add_cracks(model, state.crack);
+    if (by_bonds)
+      model::break_bonds(model, state.bonds);
+    else
+      model::add_cracks(model, state.crack);
     std::fill_n(state.crack.component(model::crack_moment), state.crack.stride(), 0.0);
   }
   state.peak_force = 0;

@@ -12,6 +12,8 @@
 #include "driver/schedule.h"
 #include "driver/stop_criteria.h"
 #include "driver/warnings.h"
+#include "failure/bond_breaking.h"
+#include "failure/cracking.h"
 #include "koshi/dynamics.h"
 #include "koshi/input.h"
 
@@ -79,15 +81,19 @@ Outcome Simulation::run(const Observer& observer, const std::vector<std::string>
   return outcome;
 }
 
-failure::Cracking* Simulation::cracking() {
-  if (!cracking_ && model_->definition.cracks()) cracking_ = std::make_unique<failure::Cracking>(*model_, state());
-  return cracking_.get();
+failure::Fracturing* Simulation::fracturing() {
+  if (fracturing_ || !model_->definition.cracks()) return fracturing_.get();
+  if (model_->definition.breaks_bonds())
+    fracturing_ = std::make_unique<failure::BondBreaking>(*model_, state());
+  else
+    fracturing_ = std::make_unique<failure::Cracking>(*model_, state());
+  return fracturing_.get();
 }
 
 // Balance and probes, with the energies of cracks.
 mechanics::Measurement Simulation::measure_at(double dt) {
   mechanics::Measurement measurement = meter_->measure(state(), dt);
-  if (cracking() != nullptr) cracking()->complete(measurement.balance);
+  if (fracturing() != nullptr) fracturing()->complete(measurement.balance);
   return measurement;
 }
 
@@ -212,8 +218,8 @@ Outcome Simulation::run_explicit(const Observer& observer) {
   outcome.time_step = state_->time_step = schedule.dt();
 
   // The state may have been changed since it was cracked: by a restart, by its owner.
-  if (cracking() != nullptr) cracking()->restore();
-  dynamics::ExplicitSolver solver(*model_, *state_, schedule.dt(), cracking());
+  if (fracturing() != nullptr) fracturing()->restore();
+  dynamics::ExplicitSolver solver(*model_, *state_, schedule.dt(), fracturing());
   outcome.measurement = measure_at(schedule.dt());
   if (state_->step == 0) {
     if (observer.history) observer.history(outcome.measurement, *state_);

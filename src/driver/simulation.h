@@ -8,7 +8,7 @@
 
 #include "base/memory.h"
 #include "driver/crack_path.h"
-#include "failure/cracking.h"
+#include "failure/fracturing.h"
 #include "koshi/dynamics.h"
 #include "koshi/model.h"
 #include "koshi/modes.h"
@@ -103,7 +103,7 @@ class Simulation {
   Outcome run_explicit(const Observer& observer);
   double choose_step(const mechanics::StableStep& stable) const;
   /// Cracks of the state as it is now; none where nothing can crack.
-  failure::Cracking* cracking();
+  failure::Fracturing* fracturing();
   void check_support() const;
   void check_divergence(const mechanics::Balance& balance, const Observer& observer) const;
 
@@ -115,7 +115,7 @@ class Simulation {
   std::unique_ptr<mechanics::Meter> meter_;
   std::optional<std::vector<std::string>> warnings_;  ///< set once prepared
   std::unique_ptr<model::State> state_;
-  std::unique_ptr<failure::Cracking> cracking_;
+  std::unique_ptr<failure::Fracturing> fracturing_;
   std::optional<mechanics::StableStep> stable_;        // once an explicit step was asked for
   std::unique_ptr<dynamics::ExplicitSolver> stepper_;  // of `step`; none during and after a run
   double lag_ = 0;                                     // step whose middle the state's velocities belong to [s]

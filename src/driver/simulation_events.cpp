@@ -87,8 +87,10 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
   };
 
   // The state is that of the unit load between events, when equilibria are sought, and of the event's load at them.
-  cracking()->restore();
-  failure::CrackEvents events(*cracking(), *model_, *state_);
+  // Bonds break in motion only, as the check of the definition has it.
+  auto& cracking = dynamic_cast<failure::Cracking&>(*fracturing());
+  cracking.restore();
+  failure::CrackEvents events(cracking, *model_, *state_);
   const double end = statics::end_time(definition);
   LoadFactor loads(*model_, end);
   CrackedEquilibrium equilibrium(*model_, *state_, events.faces(), end, options);
@@ -105,7 +107,7 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
     if (factor > 0) balance.add(factor, measured.elastic_energy, work_of_supports(), events.faces().bend());
     measured.load_factor = factor;
     measured.given = balance.work();
-    measured.cracked = cracking()->energy_taken();
+    measured.cracked = cracking.energy_taken();
     state_->time = static_cast<double>(path.events);
     if (observer.history) observer.history(outcome.measurement, *state_);
   };

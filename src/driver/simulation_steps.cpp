@@ -3,6 +3,7 @@
 
 #include "base/suggest.h"
 #include "driver/simulation.h"
+#include "failure/cracking.h"
 
 namespace koshi::driver {
 namespace {
@@ -28,11 +29,11 @@ double Simulation::time_step() {
 void Simulation::step(std::int64_t count, const std::function<void()>& breathe) {
   if (!stepper_) {
     // The state may have been changed since it was cracked.
-    if (cracking() != nullptr) cracking()->restore();
-    stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, state(), time_step(), cracking());
+    if (fracturing() != nullptr) fracturing()->restore();
+    stepper_ = std::make_unique<dynamics::ExplicitSolver>(*model_, state(), time_step(), fracturing());
   }
   // The owner may have moved nodes since the last call.
-  if (cracking() != nullptr) cracking()->look_again();
+  if (fracturing() != nullptr) fracturing()->look_again();
   if (count > 0) lag_ = time_step();
   for (std::int64_t s = 0; s < count; ++s) {
     stepper_->step();
@@ -58,7 +59,12 @@ void Simulation::damage_cells(const lattice::Field<double>& wanted, const Vec3& 
   check_cracks();
   if (!(norm(normal) > 0))
     throw InputError("damage: error: the normal is zero; it needs a direction such as (1, 0, 0)");
-  cracking()->damage_cells(wanted, normal);
+  auto* const cracking = dynamic_cast<failure::Cracking*>(fracturing());
+  if (cracking == nullptr)
+    throw InputError(
+        "damage: error: with law = \"bonds\" a cell has no damage of its own, only bonds that break; take law = "
+        "\"cohesive\"");
+  cracking->damage_cells(wanted, normal);
 }
 
 void Simulation::set_boundary_factor(const std::string& name, double value) {

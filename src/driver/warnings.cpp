@@ -127,7 +127,7 @@ void check_spacing(const Definition& definition, std::vector<std::string>& warni
   const double d = definition.lattice.spacing;
   const double widest = failure::band_width(d, {1 / std::sqrt(3.0), 1 / std::sqrt(3.0), 1 / std::sqrt(3.0)});
   for (const model::MaterialDefinition& material : definition.materials) {
-    if (!material.cracks()) continue;
+    if (!material.cracks() || material.fracture->law == material::FractureLaw::bonds) continue;
     const double E = material.elastic.youngs_modulus, f_t = material.fracture->tensile_strength;
     const double G_f = material.fracture->fracture_energy, limit = failure::width_limit(E, f_t, G_f);
     if (widest < limit) continue;

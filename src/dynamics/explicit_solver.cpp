@@ -5,7 +5,7 @@
 #include "dynamics/mean_strain.h"
 #include "dynamics/orientation.h"
 #include "dynamics/row_update.h"
-#include "failure/cracking.h"
+#include "failure/fracturing.h"
 #include "koshi/dynamics.h"
 #include "lattice/halo.h"
 #include "mechanics/force_kernel.h"
@@ -48,10 +48,10 @@ struct ExplicitSolver::Implementation {
   const double origin;  // time of step 0: times are origin + step dt, so that they do not gather rounding
 
   // Of a body that can crack.
-  failure::Cracking* const cracking;
+  failure::Fracturing* const cracking;
   std::optional<EnergyLedger> ledger;
 
-  Implementation(const model::Model& m, model::State& s, double step, failure::Cracking* cracks)
+  Implementation(const model::Model& m, model::State& s, double step, failure::Fracturing* cracks)
       : model(m),
         state(s),
         dt(step),
@@ -109,7 +109,7 @@ struct ExplicitSolver::Implementation {
     kernel.for_each_row(
         state.displacement, rows, [this](std::int64_t n) { fetch(n); },  // 2. internal force
         [&](std::int64_t j, std::int64_t k, double* const* force) {
-          if (cracking != nullptr) cracking->add_faces(j, k, force);
+          if (cracking != nullptr) cracking->add_forces(j, k, force);
           if (ledger) ledger->open(j, k, force, loads.touch(j, k));
           loads.add(j, k, force);      // 3. add loads
           damp_and_kick(j, k, force);  // 4. and 5.
@@ -168,7 +168,7 @@ struct ExplicitSolver::Implementation {
     }
   }
 
-  // 8. Crack cells by the displacements at the end of the step.
+  // 8. Crack cells, or break bonds, by the displacements at the end of the step.
   void crack() {
     halo.exchange(state.displacement);
     halo.exchange(state.velocity);
@@ -212,7 +212,7 @@ struct ExplicitSolver::Implementation {
   }
 };
 
-ExplicitSolver::ExplicitSolver(const model::Model& model, model::State& state, double dt, failure::Cracking* cracking)
+ExplicitSolver::ExplicitSolver(const model::Model& model, model::State& state, double dt, failure::Fracturing* cracking)
     : self_(new Implementation(model, state, dt, cracking)) {}
 ExplicitSolver::~ExplicitSolver() = default;
 double ExplicitSolver::dt() const { return self_->dt; }

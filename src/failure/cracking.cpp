@@ -14,7 +14,7 @@ constexpr double margin = 1 - 1e-5;
 }  // namespace
 
 Cracking::Cracking(model::Model& model, model::State& state)
-    : model_(model), state_(state), rows_(strain_rows()), limit_(model.layout(), 1) {
+    : Fracturing(model, state), rows_(strain_rows()), limit_(model.layout(), 1) {
   const lattice::Layout& layout = model.layout();
   if (model.lattice.factor.components() == 0) model::make_factors(model.lattice, [](const Int3&) { return 1.0F; });
   whole_ = model.lattice.factor;

@@ -6,9 +6,10 @@
 #include <vector>
 
 #include "failure/cell_law.h"
+#include "failure/fracturing.h"
 #include "failure/strain_rows.h"
 #include "koshi/model.h"
-#include "mechanics/measure.h"
+#include "mechanics/cell_stress.h"
 
 namespace koshi::failure {
 
@@ -19,35 +20,21 @@ inline std::size_t cell_row(const lattice::Layout& layout, std::int64_t j, std::
 
 /// Keeps State::crack, State::face_force and the factors of the model's cells together. Every rank follows all cells
 /// that touch its nodes, so that the bits do not depend on the ranks and no cracks are exchanged.
-class Cracking {
+class Cracking : public Fracturing {
  public:
   /// The model must have a material that can crack, and its cells their factors without cracks; it has those with the
   /// cracks of the state from then on.
   Cracking(model::Model& model, model::State& state);
 
-  /// Factors and face forces from State::crack: at the start, and after it was changed by others (collective).
-  void restore();
-
-  /// Cracks what the state's displacements crack. Ghosts of displacement and velocity must be up to date; dt: the step
-  /// [s] that led there, by the state's velocities. Takes no memory.
-  void follow(double dt);
-
-  /// To be called when displacements were changed in another way than by the steps that follow() is told of.
-  void look_again();
+  void restore() override;
+  void follow(double dt) override;
+  void add_forces(std::int64_t j, std::int64_t k, double* const* force) const override;
+  void look_again() override;
 
   /// Raises the damage of owned cells to `wanted` where that is above what they have, with cracks of unit normal n;
   /// cells that have cracked keep their normal (collective). Throws InputError for a value outside 0 ... 1, or above 0
   /// in a cell that cannot crack.
   void damage_cells(const lattice::Field<double>& wanted, const Vec3& n);
-
-  /// Adds the forces of closed crack faces on row (j, k), force[c] pointing to node i = 0.
-  void add_faces(std::int64_t j, std::int64_t k, double* const* force) const;
-
-  /// Energy [J] that cracks and the friction of their faces have taken so far (collective).
-  double energy_taken() const;
-
-  /// Adds to a balance of the state the energy of closed faces and where energy has gone (collective).
-  void complete(mechanics::Balance& balance) const;
 
  private:
   friend class CrackEvents;  // of the same cells, in equilibrium
@@ -63,6 +50,7 @@ class Cracking {
     return crack.damage * static_cast<double>(whole_.component(0)[n]);
   }
   void set_factor(std::int64_t n, const Crack& crack);
+  double stored_energy(std::int64_t n) const override;
   double intact_energy(std::int64_t n, double dt) const;
   void note(std::int64_t n);
   void clear_faces();
@@ -75,23 +63,6 @@ class Cracking {
   void store(std::int64_t n, const Crack& crack);
   const CellLaw& law(std::int64_t n) const { return *laws_[model_.lattice.cell.component(0)[n]]; }
 
-  /// Components of State::crack.
-  enum Part {
-    damage = 0,
-    kappa,
-    limit,
-    onset,
-    ratio,
-    taken,
-    normal,
-    slip = normal + 3,
-    dissipated = slip + 3,
-    moment,
-    shear
-  };
-  static_assert(shear + 1 == model::crack_components);
-  model::Model& model_;
-  model::State& state_;
   std::vector<std::optional<CellLaw>> laws_;  ///< by material index
   std::vector<Bound> bounds_;                 ///< by material index
   std::vector<double> per_strain_;            ///< by material index: the reach that a lacking strain of 1 gives [m]

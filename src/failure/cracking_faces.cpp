@@ -1,7 +1,4 @@
 // Forces and energies of closed crack faces.
-#include <algorithm>
-
-#include "base/exact_sum.h"
 #include "failure/cracking.h"
 
 namespace koshi::failure {
@@ -63,7 +60,7 @@ void Cracking::close_faces(bool sliding) {
   }
 }
 
-void Cracking::add_faces(std::int64_t j, std::int64_t k, double* const* force) const {
+void Cracking::add_forces(std::int64_t j, std::int64_t k, double* const* force) const {
   const lattice::Layout& layout = model_.layout();
   if (touched_[static_cast<std::size_t>(j + layout.owned()[1] * k)] == 0) return;
   const std::int64_t n = layout.index(0, j, k);
@@ -71,31 +68,11 @@ void Cracking::add_faces(std::int64_t j, std::int64_t k, double* const* force) c
     for (std::int64_t i = 0; i < layout.owned()[0]; ++i) force[c][i] += state_.face_force.component(c)[n + i];
 }
 
-double Cracking::energy_taken() const {
-  ExactSum sum;
-  lattice::for_each_owned(model_.layout(),
-                          [&](auto, auto, auto, auto n) { sum += state_.crack.component(dissipated)[n]; });
-  sum.sum_ranks(model_.communicator);
-  return sum.value();
-}
-
-void Cracking::complete(mechanics::Balance& balance) const {
+double Cracking::stored_energy(std::int64_t n) const {
   const double d = model_.lattice.grid.d;
-  ExactSum faces, given, damped;
-  lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) {
-    given += state_.work.component(0)[n];
-    damped += state_.work.component(1)[n];
-    if (state_.crack.component(kappa)[n] == 0) return;
-    const Crack crack = load(n);
-    const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
-    faces += share(n, crack) * law(n).faces(crack, strain).energy * d * d * d;
-  });
-  for (ExactSum* sum : {&faces, &given, &damped}) sum->sum_ranks(model_.communicator);
-  balance.elastic_energy += faces.value();
-  balance.leapfrog_energy += faces.value();
-  balance.cracked = energy_taken();
-  balance.given = given.value();
-  balance.damped = damped.value();
+  const Crack crack = load(n);
+  const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
+  return share(n, crack) * law(n).faces(crack, strain).energy * d * d * d;
 }
 
 }  // namespace koshi::failure

@@ -36,15 +36,21 @@ struct Stiffness {
   double kn, kt;  ///< [N/m]
 };
 
-/// The cell's part of a bond whose first node is `node`; `cell` is the index of its lowest corner. Shared springs: the
-/// material's stiffness over the number of cells in the bulk, times the cell's factor. Plain springs: the bond's
-/// stiffness over its solid cells.
+/// A cell's part of a whole bond with shared springs: the material's stiffness over the number of cells in the bulk,
+/// times the cell's factor.
+inline Stiffness shared_part(const model::SpringLattice& body, int slot, std::int64_t cell) {
+  const int family = lattice::slots[slot].family;
+  const material::Springs& springs = body.springs[body.cell.component(0)[cell]];
+  const double share = body.factor_of(cell) / lattice::cells_per_bond[family];
+  return {share * springs.kn[family], share * springs.kt[family]};
+}
+
+/// The cell's part of a bond whose first node is `node`; `cell` is the index of its lowest corner. Shared springs: as
+/// above, and nothing of broken bonds. Plain springs: the bond's stiffness over its solid cells.
 inline Stiffness cell_part(const model::SpringLattice& body, int slot, std::int64_t node, std::int64_t cell) {
   if (body.sharing == material::Sharing::shared) {
-    const int family = lattice::slots[slot].family;
-    const material::Springs& springs = body.springs[body.cell.component(0)[cell]];
-    const double share = body.factor_of(cell) / lattice::cells_per_bond[family];
-    return {share * springs.kn[family], share * springs.kt[family]};
+    if (body.is_broken(slot, node)) return {0, 0};
+    return shared_part(body, slot, cell);
   }
   const double cells = body.bond_cells.component(slot)[node];
   if (cells == 0) return {0, 0};

@@ -35,9 +35,9 @@ namespace {
 struct ForceRow {
   double* const* springs;
   double* const* loads;
-  std::array<const double*, 3> faces{};  // of closed cracks; null: none
+  std::array<const double*, 6> faces{};  // of cracks; null: none
 
-  double of_faces(int c, std::int64_t i) const { return c < 3 && faces[0] != nullptr ? faces[c][i] : 0; }
+  double of_faces(int c, std::int64_t i) const { return faces[c] != nullptr ? faces[c][i] : 0; }
   double total(int c, std::int64_t i) const { return springs[c][i] + loads[c][i] + of_faces(c, i); }
 };
 
@@ -56,8 +56,8 @@ void Meter::for_each_row(model::State& state, F&& f) {
     for (auto& e : external) std::fill(e.begin(), e.end(), 0);
     loads_.add(j, k, external_row.data());
     ForceRow row{internal, external_row.data()};
-    if (state.face_force.components() != 0)
-      for (int c = 0; c < 3; ++c) row.faces[c] = state.face_force.component(c) + layout.index(0, j, k);
+    for (int c = 0; c < state.face_force.components(); ++c)
+      row.faces[c] = state.face_force.component(c) + layout.index(0, j, k);
     f(j, k, row);
   });
 }
@@ -90,12 +90,13 @@ bool needs_reactions(const model::Probe& probe) {
 }
 
 struct Sums {
-  ExactSum elastic, kinetic, leapfrog, residual, reference;
+  ExactSum elastic, kinetic, leapfrog, residual, reference, pending;
 
   Balance total(const Communicator& communicator) {
-    for (ExactSum* s : {&elastic, &kinetic, &leapfrog, &residual, &reference}) s->sum_ranks(communicator);
-    return {elastic.value(), kinetic.value(), leapfrog.value(), std::sqrt(residual.value()),
-            std::sqrt(reference.value())};
+    for (ExactSum* s : {&elastic, &kinetic, &leapfrog, &residual, &reference, &pending}) s->sum_ranks(communicator);
+    return {
+        elastic.value(), kinetic.value(), leapfrog.value(), std::sqrt(residual.value()), std::sqrt(reference.value()),
+        pending.value()};
   }
 };
 
@@ -109,7 +110,7 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
   const bool strained = state.mean_strain != Tensor6{};
   for (std::int64_t i = 0; i < model.layout().owned()[0]; ++i) {
     if (model.inertia.component(0)[n + i] == 0) continue;
-    double elastic = 0, kinetic = 0, leapfrog = 0, residual = 0, reference = 0;
+    double elastic = 0, kinetic = 0, leapfrog = 0, residual = 0, reference = 0, pending = 0;
     // The mean strain's part of the energy is the mean stress's, see add_mean_strain().
     Vec3 uniform{};
     if (strained) uniform = uniform_displacement(model, state.mean_strain, model.layout().global({i, j, k}));
@@ -124,6 +125,9 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
       elastic -= 0.5 * u * forces.springs[c][i];
       kinetic += 0.5 * inertia * v * v;
       leapfrog += 0.5 * inertia * (v - gain) * (v + gain);
+      // The half step from the middle of the last one to the displacements: loads' work, and supports' against springs.
+      const double springs = forces.springs[c][i] + forces.of_faces(c, i);
+      pending += 0.5 * dt * (v - gain) * (prescribed ? -springs : forces.loads[c][i]);
       const double square = force * force / (lever * lever);
       (prescribed ? reference : residual) += square;
       reference += forces.loads[c][i] * forces.loads[c][i] / (lever * lever);
@@ -133,6 +137,7 @@ void add_row(const model::Model& model, const model::State& state, double dt, st
     sums.leapfrog += elastic + leapfrog;
     sums.residual += residual;
     sums.reference += reference;
+    sums.pending += pending;
   }
 }
 

@@ -49,7 +49,9 @@ class Checker {
   }
 };
 
-void check_body(const Checker& check);         ///< lattice, body, materials, regions
+void check_body(const Checker& check);  ///< lattice, body, materials, regions
+/// What breaks a material; `path` of its fracture.
+void check_fracture(const Checker& check, const std::string& path, const MaterialDefinition& material);
 void check_scan(const Checker& check);         ///< how an image becomes cells
 void check_scatter(const Checker& check);      ///< what differs from cell to cell
 void check_conditions(const Checker& check);   ///< boundaries, loads, probes

@@ -54,41 +54,6 @@ void check_lattice(const Checker& check) {
                fmt::format("axes is \"{}\"; expected a permutation of \"xyz\" such as \"yxz\"", lattice.axes));
 }
 
-void check_fracture(const Checker& check, const std::string& path, const material::Fracture& fracture) {
-  check.within(ranges::strength, path + ".tensile_strength", fracture.tensile_strength);
-  check.within(ranges::fracture_energy, path + ".fracture_energy", fracture.fracture_energy);
-  check.within(ranges::strength, path + ".cohesion", fracture.cohesion);
-  check.within(ranges::friction_angle, path + ".friction_angle", fracture.friction_angle);
-  check.within(ranges::friction_angle, path + ".residual_friction_angle", fracture.residual_friction_angle);
-  if (fracture.friction_angle > 0 && !fracture.cohesion)
-    check.fail(path + ".friction_angle",
-               "friction_angle belongs to a shear strength, but there is no cohesion; give one, such as cohesion = \"8 "
-               "MPa\", or leave the angle out");
-  // Mohr and Coulomb's line must not cut off the tensile strength that was asked for.
-  const double needed =
-      fracture.tensile_strength * (1 + std::sin(fracture.friction_angle)) / (2 * std::cos(fracture.friction_angle));
-  if (fracture.cohesion && !(*fracture.cohesion > needed))
-    check.fail(path + ".cohesion",
-               fmt::format("with a cohesion of {:.6g} Pa the material would shear in pure tension below its "
-                           "tensile_strength of {:.6g} Pa; the cohesion must be above {:.6g} Pa",
-                           *fracture.cohesion, fracture.tensile_strength, needed));
-
-  if (fracture.law == material::FractureLaw::none) return;
-  // Cracks are cells that lose their springs, and the criterion is isotropic.
-  const LatticeDefinition& lattice = check.definition.lattice;
-  if (lattice.springs != material::Sharing::shared)
-    check.fail(path, "fracture takes springs from cells, but plain springs belong to none; use springs = \"shared\"");
-  if (check.definition.calibration() == material::Calibration::paper)
-    check.fail(path,
-               "fracture needs springs that are isotropic, which the paper's calibration does not promise; leave "
-               "calibration out, or take \"isotropic\"");
-  if (check.definition.analysis.type == AnalysisDefinition::Type::modes)
-    check.fail(
-        path,
-        "type = \"modes\" follows no cracks: modes are small vibrations of the body as it is; use analysis.type = "
-        "\"static\", \"quasi-static\" or \"dynamic\", or set law = \"none\"");
-}
-
 void check_materials(const Checker& check) {
   const auto& materials = check.definition.materials;
   if (materials.empty()) check.fail("material", "there is no material; define one such as [material.rock]");
@@ -107,7 +72,7 @@ void check_materials(const Checker& check) {
     check.within(ranges::youngs_modulus, path + ".youngs_modulus", material.elastic.youngs_modulus);
     check.within(ranges::density, path + ".density", material.elastic.density);
     check.within(ranges::poissons_ratio, path + ".poissons_ratio", material.elastic.poissons_ratio);
-    if (material.fracture) check_fracture(check, path + ".fracture", *material.fracture);
+    if (material.fracture) check_fracture(check, path + ".fracture", material);
   }
 }
 

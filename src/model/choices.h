@@ -43,8 +43,10 @@ inline constexpr auto choices<material::Kinematics> = std::to_array<Choice<mater
     {{"rotational", material::Kinematics::rotational}, {"least-squares", material::Kinematics::least_squares}});
 
 template <>
-inline constexpr auto choices<material::FractureLaw> = std::to_array<Choice<material::FractureLaw>>(
-    {{"cohesive", material::FractureLaw::cohesive}, {"none", material::FractureLaw::none}});
+inline constexpr auto choices<material::FractureLaw> =
+    std::to_array<Choice<material::FractureLaw>>({{"cohesive", material::FractureLaw::cohesive},
+                                                  {"bonds", material::FractureLaw::bonds},
+                                                  {"none", material::FractureLaw::none}});
 
 template <>
 inline constexpr auto choices<material::Softening> = std::to_array<Choice<material::Softening>>(

@@ -27,6 +27,12 @@ bool Definition::cracks() const {
   return std::any_of(materials.begin(), materials.end(), [](const MaterialDefinition& m) { return m.cracks(); });
 }
 
+bool Definition::breaks_bonds() const {
+  return std::any_of(materials.begin(), materials.end(), [](const MaterialDefinition& m) {
+    return m.fracture && m.fracture->law == material::FractureLaw::bonds;
+  });
+}
+
 bool Definition::varies_in_stiffness() const {
   return std::any_of(materials.begin(), materials.end(),
                      [](const MaterialDefinition& m) { return m.stiffness_scatter.has_value(); });

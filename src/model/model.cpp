@@ -153,9 +153,15 @@ State::State(const Model& model)
     : displacement(model.layout(), model.components()), velocity(model.layout(), model.components()) {
   if (!model.definition.cracks()) return;
   crack = lattice::Field<double>(model.layout(), crack_components);
-  face_force = lattice::Field<double>(model.layout(), 3);
   work = lattice::Field<double>(model.layout(), 2);
-  add_cracks(model, crack);
+  const bool by_bonds = model.definition.breaks_bonds();
+  face_force = lattice::Field<double>(model.layout(), by_bonds ? model.components() : 3);
+  if (by_bonds) {
+    bonds = lattice::Field<double>(model.layout(), 2);
+    break_bonds(model, bonds);
+  } else {
+    add_cracks(model, crack);
+  }
 }
 
 }  // namespace koshi::model

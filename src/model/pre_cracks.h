@@ -10,4 +10,8 @@ namespace koshi::model {
 /// InputError at a crack that cuts no solid cell, or one whose material cannot crack.
 void add_cracks(const Model& model, lattice::Field<double>& crack);
 
+/// Where bonds break: breaks in the first component of State::bonds those that cross the definition's cracks. Errors
+/// (collective): InputError at a crack that crosses no bond, or one that a material holds which cannot crack.
+void break_bonds(const Model& model, lattice::Field<double>& bonds);
+
 }  // namespace koshi::model

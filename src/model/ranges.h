@@ -68,6 +68,7 @@ inline constexpr Range poissons_ratio{.least = -1,
 inline constexpr Range density{.unit = "kg/m^3", .least = 1e-9, .most = 1e18};
 inline constexpr Range strength{.unit = "Pa", .least = 1e-9, .most = 1e18};
 inline constexpr Range fracture_energy{.unit = "J/m^2", .least = 1e-15, .most = 1e18};
+inline constexpr Range bond_limit{.least = 1e-12, .most = 1};
 inline constexpr Range friction_angle{.unit = "rad",
                                       .least = 0,
                                       .most = std::numbers::pi / 2,

@@ -123,6 +123,7 @@ void make_bonds(const SpringLattice& body, lattice::Field<double>& bond, lattice
     lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
       double kn = 0, kt = 0;
       int solid = 0;
+      if (body.is_broken(slot, n)) return;
       for (const std::int64_t o : around) {
         const material::Springs& springs = body.springs[cell[n + o]];
         solid += cell[n + o] != 0;

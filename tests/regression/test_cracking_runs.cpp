@@ -371,7 +371,7 @@ TEST_F(CrackingRuns, WrongFractureIsRefusedInWords) {
       {"--set material.concrete.fracture='{tensile_strength=3e6, fracture_energy=20, friction_angle=0.5}'",
        "\"friction_angle\" has no meaning here; it goes with a cohesion"},
       {fracture + "cohesion='\"3 MPa\"'", "the cohesion must be above 3.21676e+06 Pa"},
-      {fracture + "law=bonds", "unknown law \"bonds\"; allowed: \"cohesive\", \"none\""},
+      {fracture + "law=brittle", "unknown law \"brittle\"; allowed: \"cohesive\", \"bonds\", \"none\""},
       {"--set lattice.springs=plain", "plain springs belong to none; use springs = \"shared\""},
       {"--set lattice.calibration=paper", "fracture needs springs that are isotropic"},
       {"--set analysis.events=5", "\"events\" has no meaning here; it goes with type \"static\""},

@@ -63,6 +63,8 @@ const std::map<std::string, std::string>& places() {
       {"material.density", "material.soft.density"},
       {"material.fracture.tensile_strength", "material.soft.fracture.tensile_strength"},
       {"material.fracture.fracture_energy", "material.soft.fracture.fracture_energy"},
+      {"material.fracture.critical_stretch", "material.soft.fracture.critical_stretch"},
+      {"material.fracture.critical_shear", "material.soft.fracture.critical_shear"},
       {"material.fracture.cohesion", "material.soft.fracture.cohesion"},
       {"material.fracture.friction_angle", "material.soft.fracture.friction_angle"},
       {"material.fracture.residual_friction_angle", "material.soft.fracture.residual_friction_angle"},
@@ -183,6 +185,8 @@ std::string message_of(const std::string& name, const std::string& number) {
   if (name == "analysis.damping.rate") overrides.emplace_back("analysis.damping.kind=viscous");
   if (name.starts_with("material.fracture."))
     overrides.emplace_back("material.soft.fracture={tensile_strength=1, fracture_energy=1, cohesion=10}");
+  if (name.starts_with("material.fracture.critical"))
+    overrides.emplace_back("material.soft.fracture={law='bonds', critical_stretch=1e-3}");
   if (name.ends_with("scatter.variation"))
     overrides.push_back(path.substr(0, path.rfind('.')) + ".distribution=normal");
   if (name.starts_with("crack."))
@@ -245,8 +249,8 @@ TEST(Ranges, EveryNumberIsKeptToThem) {
     EXPECT_THAT(message_of(name, "\"1e400\""), HasSubstr("is out of the range of numbers")) << name;
     ++count;
   }
-  EXPECT_EQ(count, 114);
-  EXPECT_EQ(places().size(), 114u);
+  EXPECT_EQ(count, 116);
+  EXPECT_EQ(places().size(), 116u);
 }
 
 // The unit of a range is the one in which the reader gives its values.
@@ -275,7 +279,7 @@ TEST(Ranges, HaveTheUnitOfTheirKey) {
                 check_units<StopDefinition>() + check_units<SelectionDefinition>() + check_units<SphereShape>() +
                 check_units<CylinderShape>() + check_units<HalfSpaceShape>() + check_units<MeanStrain>() +
                 check_units<MeanStress>(),
-            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 3 + 4 + 4 + 4 + 1 + 6 + 2 + 2 + 2 + 3 + 2 + 6 + 6);
+            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 3 + 4 + 4 + 6 + 1 + 6 + 2 + 2 + 2 + 3 + 2 + 6 + 6);
 }
 
 // A fracture with nothing wrong but what it is given.
@@ -284,6 +288,13 @@ material::Fracture& fracture_of(model::Definition& definition) {
   fracture.law = material::FractureLaw::none;
   fracture.tensile_strength = fracture.fracture_energy = 1;
   fracture.cohesion = 10;
+  return fracture;
+}
+
+material::Fracture& bonds_of(model::Definition& definition) {
+  material::Fracture& fracture = definition.materials[0].fracture.emplace();
+  fracture.law = material::FractureLaw::bonds;
+  fracture.critical_stretch = fracture.critical_shear = 1e-3;
   return fracture;
 }
 
@@ -307,6 +318,8 @@ TEST(Ranges, HoldForDefinitionsOfAProgram) {
       [](D& d) -> double& { return fracture_of(d).cohesion.emplace(); },
       [](D& d) -> double& { return fracture_of(d).friction_angle; },
       [](D& d) -> double& { return fracture_of(d).residual_friction_angle; },
+      [](D& d) -> double& { return *bonds_of(d).critical_stretch; },
+      [](D& d) -> double& { return *bonds_of(d).critical_shear; },
       [](D& d) -> double& { return fracture_of(d).strength_scatter.emplace().modulus; },
       [](D& d) -> double& { return scatter_of(d).variation; },
       [](D& d) -> double& { return scatter_of(d).correlation_length; },
@@ -359,7 +372,7 @@ TEST(Ranges, HoldForDefinitionsOfAProgram) {
       EXPECT_THROW(model::check(wrong), InputError) << "member " << m << " = " << value;
       ++count;
     }
-  EXPECT_EQ(count, 52 * 5);
+  EXPECT_EQ(count, 54 * 5);
 }
 
 }  // namespace

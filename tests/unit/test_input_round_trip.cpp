@@ -17,13 +17,14 @@ std::string contents(const std::filesystem::path& path) {
   return text.str();
 }
 
-// The examples, and three cases that hold every key between them.
+// The examples, and four cases that hold every key between them.
 std::vector<std::filesystem::path> right_cases() {
   const std::filesystem::path source(KOSHI_SOURCE_DIR);
   return {source / "examples/01_uniaxial_paper/case.toml",   source / "examples/02_cantilever_paper/case.toml",
           source / "examples/03_cantilever_exact/case.toml", source / "examples/04_two_phase_block/case.toml",
           source / "tests/fuzz/corpus/input/stepped.toml",   source / "tests/fuzz/corpus/input/image.toml",
-          source / "tests/fuzz/corpus/input/cracked.toml",   source / "tests/fuzz/corpus/input/strained.toml"};
+          source / "tests/fuzz/corpus/input/cracked.toml",   source / "tests/fuzz/corpus/input/strained.toml",
+          source / "tests/fuzz/corpus/input/bonds.toml"};
 }
 
 TEST(ResolvedInput, ReadsBackEqual) {
@@ -159,6 +160,9 @@ TEST(ResolvedInput, EveryKeySurvives) {
                                     std::string("output.crack_surface=false"),
                                     std::string("output.fields=['damage']")})
     expect_survival(right_cases()[6], change);
+  for (const char* change : {"critical_stretch=1", "critical_shear=1", "strength_scatter.modulus=3"})
+    expect_survival(right_cases()[8], fracture + change);
+  expect_survival(right_cases()[8], "material.rock.fracture={law='bonds', fracture_energy=1}");
   expect_survival(right_cases()[0], "body.surface=cut");
   for (const char* change : {"macroscopic.strain.xx=2e-3", "macroscopic.strain.yz=1", "macroscopic.strain.zz=0",
                              "macroscopic.strain.xz=1e-9", "macroscopic.stress.yy=0", "macroscopic.stress.zz=1",

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <new>
 
+#include "failure/bond_breaking.h"
 #include "failure/cracking.h"
 #include "koshi/dynamics.h"
 #include "support/cases.h"
@@ -110,6 +111,28 @@ TEST(CrackingAllocation, NoneInAStep) {
   for (int step = 0; step < 140; ++step) solver.step();
   EXPECT_EQ(allocations, before);
   EXPECT_GT(cracked(), 10);
+}
+
+// Nor do bonds that break, nor those that carry pressure.
+TEST(BondBreakingAllocation, NoneInAStep) {
+  model::Definition definition = busy_block(material::Kinematics::rotational, material::Sharing::shared);
+  definition.lattice.calibration = material::Calibration::isotropic;
+  material::Fracture& fracture = definition.materials[0].fracture.emplace();
+  fracture.law = material::FractureLaw::bonds;
+  fracture.critical_stretch = 1e-4;
+  fracture.critical_shear = 3e-4;
+  definition.boundaries[0].ramp = 0;
+  definition.boundaries[0].history = {{0, 0}, {1e-5, 0}, {5e-4, -1}, {1.5e-3, 1}};
+  model::Model model = model::make_model(definition, Communicator::world());
+  model::State state(model);
+  failure::BondBreaking breaking(model, state);
+  dynamics::ExplicitSolver solver(model, state, 1e-5, &breaking);
+  solver.step();
+  EXPECT_EQ(breaking.count(), 0);
+  const std::int64_t before = allocations;
+  for (int step = 0; step < 140; ++step) solver.step();
+  EXPECT_EQ(allocations, before);
+  EXPECT_GT(breaking.count(), 10);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Allocation,

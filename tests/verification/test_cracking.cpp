@@ -214,7 +214,7 @@ TEST(Cracking, BarsTakeTheFractureEnergy) {
     const bool turns = kinematics == rotational;
     EXPECT_NEAR(seen.end.cracked / 1e-4 / 100, 1, 0.01) << d;
     EXPECT_NEAR(seen.peak / 1e-4 / 2.7e6, turns ? 1.03 : 1, turns ? 0.01 : 0.03 / slow) << d;
-    EXPECT_LT(seen.unbalanced, 1e-3) << d;
+    EXPECT_LT(seen.unbalanced, 1e-5) << d;
     EXPECT_GT(seen.end.given, seen.end.cracked);
     EXPECT_EQ(seen.end.damped, 0);
     EXPECT_GT(seen.rows, 340);
@@ -239,7 +239,7 @@ TEST(Cracking, ClosedCracksCarryPressure) {
     EXPECT_GT(seen.end.cracked, 0.4 * 1e-4 * 100);
     EXPECT_LT(seen.end.cracked, 0.7 * 1e-4 * 100);
     EXPECT_GT(seen.end.damped, 0);
-    EXPECT_LT(seen.unbalanced, 1e-3);
+    EXPECT_LT(seen.unbalanced, 1e-5);
   }
 }
 

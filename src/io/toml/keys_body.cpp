@@ -135,24 +135,43 @@ const std::vector<Key<MaterialDefinition>>& keys_of(Tag<MaterialDefinition>) {
 
 const std::vector<Key<material::Fracture>>& keys_of(Tag<material::Fracture>) {
   using D = material::Fracture;
-  const auto shears = [](const D& fracture) { return fracture.cohesion.has_value(); };
+  // Without a law that cracks the numbers of cells stay.
+  const auto of_bonds = [](const D& fracture) { return fracture.law == material::FractureLaw::bonds; };
+  const auto bonds = [of_bonds](Key<D> key) { return std::move(key).only_for("law \"bonds\"", {"law"}, of_bonds); };
+  const auto cells = [of_bonds](Key<D> key) {
+    return std::move(key).only_for("law \"cohesive\" or \"none\"", {"law"},
+                                   [of_bonds](const D& fracture) { return !of_bonds(fracture); });
+  };
+  const About limit{.range = ranges::bond_limit, .example = "2e-4"};
   static const std::vector<Key<D>> keys{
-      key<D>("law", &D::law, "Cells that crack by strength and energy, or \"none\": the material stays whole."),
-      key<D>("tensile_strength", &D::tensile_strength, "Tension at which a crack starts.",
-             {.dimension = Dimension::pressure, .required = true, .range = ranges::strength, .example = R"("3 MPa")"}),
+      key<D>("law", &D::law,
+             "Cells that crack by strength and energy, bonds that break by their stretch, or \"none\": the material "
+             "stays whole."),
+      cells(key<D>(
+          "tensile_strength", &D::tensile_strength, "Tension at which a crack starts.",
+          {.dimension = Dimension::pressure, .required = true, .range = ranges::strength, .example = R"("3 MPa")"})),
+      bonds(key<D>("critical_stretch", &D::critical_stretch,
+                   "Stretch at which a bond breaks, of its length; unset: from fracture_energy.", limit)),
+      bonds(key<D>("critical_shear", &D::critical_shear,
+                   "Shear across a bond at which it breaks too, of its length; unset: none.", limit)),
       key<D>("fracture_energy", &D::fracture_energy, "Energy that an area of crack takes.",
              {.dimension = Dimension::energy_per_area,
               .required = true,
               .range = ranges::fracture_energy,
-              .example = R"("100 J/m^2")"}),
-      key<D>("softening", &D::softening, "How the stress falls as the crack opens: exponentially, or on a line."),
-      key<D>("cohesion", &D::cohesion, "Shear strength without pressure; unset: the material cracks in tension only.",
-             {.dimension = Dimension::pressure, .range = ranges::strength, .example = R"("8 MPa")"}),
+              .example = R"("100 J/m^2")"})
+          .only_for("no critical_stretch", {"law", "critical_stretch"},
+                    [](const D& fracture) { return !fracture.critical_stretch; }),
+      cells(
+          key<D>("softening", &D::softening, "How the stress falls as the crack opens: exponentially, or on a line.")),
+      cells(key<D>("cohesion", &D::cohesion,
+                   "Shear strength without pressure; unset: the material cracks in tension only.",
+                   {.dimension = Dimension::pressure, .range = ranges::strength, .example = R"("8 MPa")"})),
       key<D>("friction_angle", &D::friction_angle, "Growth of the shear strength with the pressure.",
              {.dimension = Dimension::angle, .range = ranges::friction_angle, .example = R"("40 deg")"})
-          .only_for("a cohesion", {"cohesion"}, shears),
-      key<D>("residual_friction_angle", &D::residual_friction_angle, "Friction of closed crack faces on each other.",
-             {.dimension = Dimension::angle, .range = ranges::friction_angle, .example = R"("30 deg")"}),
+          .only_for("a cohesion", {"law", "cohesion"}, [](const D& fracture) { return fracture.cohesion.has_value(); }),
+      cells(key<D>("residual_friction_angle", &D::residual_friction_angle,
+                   "Friction of closed crack faces on each other.",
+                   {.dimension = Dimension::angle, .range = ranges::friction_angle, .example = R"("30 deg")"})),
       key<D>("strength_scatter", &D::strength_scatter,
              "How strength and cohesion, alike, differ from cell to cell; unset: not.",
              {.title = "strength_scatter", .example = R"({modulus = 10})"}),

@@ -1,0 +1,73 @@
+// Bonds of a body in motion that break one by one: after each step those that its displacements break, and what they
+// change in the forces of whole bonds.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "failure/bond_limits.h"
+#include "failure/bond_rows.h"
+#include "failure/fracturing.h"
+#include "mechanics/cell_bonds.h"
+#include "mechanics/cell_stress.h"
+
+namespace koshi::failure {
+
+/// Keeps State::bonds, State::crack, State::face_force and SpringLattice::broken together. A bond breaks on the rank
+/// that owns its first node; the bits are exchanged. Every rank follows all cells that touch its nodes.
+class BondBreaking : public Fracturing {
+ public:
+  /// The model must have a material whose bonds break, springs that all belong to bonds, and rotations of the nodes.
+  BondBreaking(model::Model& model, model::State& state);
+
+  void restore() override;
+  void follow(double dt) override;
+  void add_forces(std::int64_t j, std::int64_t k, double* const* force) const override;
+
+  /// Bonds that are broken (collective).
+  std::int64_t count() const;
+
+ private:
+  /// Indices of a node, or of a cell by its lowest corner.
+  Int3 place(std::int64_t n) const;
+  bool breaks_here(std::int64_t n) const { return limits_[model_.lattice.cell.component(0)[n]].has_value(); }
+
+  // Which bonds break.
+  void follow_row(std::int64_t j, std::int64_t k);
+  void look_at(std::int64_t n);
+  BondLimits limits_of(std::int64_t n, int slot) const;
+  void take_over_ghosts();
+  void mark_cells(std::int64_t n, int slot);
+
+  // What that does to cells.
+  std::uint32_t bonds_of_cell(std::int64_t n) const;
+  std::uint32_t broken_before(std::int64_t n) const;
+  std::uint32_t broken_now(std::int64_t n, int component = 0) const;
+  void break_in_cell(std::int64_t n, std::uint32_t fresh, double dt);
+  void describe(std::int64_t n);
+  void note(std::int64_t n);
+  void make_lattice_follow();
+
+  // Forces and energies (bond_forces.cpp).
+  Vec3 vector(const mechanics::CellBond& bond) const;
+  Vec3 relative(const mechanics::CellMotion& motion, const mechanics::CellBond& bond, const Vec3& D) const;
+  double energy_lost(std::int64_t n, std::uint32_t fresh, double dt) const;
+  double closing_loss(std::int64_t n, double dt) const;
+  double stored_energy(std::int64_t n) const override;
+  void clear_forces();
+  void add_up_forces();
+
+  std::vector<std::optional<BondLimits>> limits_;              ///< by material index
+  std::array<std::vector<Int3>, lattice::slot_count> around_;  ///< cells around a bond, from its first node
+  std::vector<BondSlot> slots_;                                ///< those with springs
+  BondRows bond_rows_;
+  std::vector<double> stretch_, shear_;  ///< of a row
+  BondLimits least_;                     ///< of all bonds
+  std::vector<char> breakable_;          ///< rows of owned nodes with bonds that can break
+  std::vector<std::int64_t> cracked_;    ///< cells with broken bonds, ascending
+  std::vector<char> touched_;            ///< rows of owned nodes next to such a cell
+  bool news_ = false;                    ///< a bond has broken in this step
+};
+
+}  // namespace koshi::failure
