@@ -156,7 +156,8 @@ BondLimits BondBreaking::limits_of(std::int64_t n, int slot) const {
     const std::int64_t cell = n + from[0] + model_.layout().pitch() * from[1] + model_.layout().plane() * from[2];
     if (material[cell] == 0) continue;
     const std::optional<BondLimits>& limits = limits_[material[cell]];
-    const mechanics::Stiffness part = mechanics::shared_part(model_.lattice, slot, cell);
+    const mechanics::Stiffness part =
+        mechanics::shared_part(model_.lattice, lattice::slots[static_cast<std::size_t>(slot)].family, cell);
     if (!limits && part.kn > 0) return {};
     if (!limits) continue;
     const double strength = model_.strength_of(cell);
@@ -242,6 +243,18 @@ void BondBreaking::mark_cells(std::int64_t n, int slot) {
   }
 }
 
+// Bit b: bond b of the cell is among the forward bonds that `of_node` gives for its first node.
+template <class F>
+std::uint32_t BondBreaking::of_cell(F&& of_node, std::int64_t n) const {
+  std::array<unsigned, 8> masks;
+  for (int a = 0; a < 8; ++a)
+    masks[static_cast<std::size_t>(a)] = of_node(n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2}));
+  std::uint32_t result = 0;
+  for (std::size_t b = 0; b < cell_bonds.size(); ++b)
+    result |= (masks[static_cast<std::size_t>(cell_bonds[b].a)] >> cell_bonds[b].slot & 1) << b;
+  return result;
+}
+
 // Bit b: bond b of the cell has springs there.
 std::uint32_t BondBreaking::bonds_of_cell(std::int64_t n) const {
   const material::Springs& springs = model_.lattice.springs[model_.lattice.cell.component(0)[n]];
@@ -252,24 +265,11 @@ std::uint32_t BondBreaking::bonds_of_cell(std::int64_t n) const {
 }
 
 std::uint32_t BondBreaking::broken_now(std::int64_t n, int component) const {
-  const double* const masks = state_.bonds.component(component);
-  std::uint32_t result = 0;
-  for (std::size_t b = 0; b < cell_bonds.size(); ++b) {
-    const auto [a, end, slot] = cell_bonds[b];
-    const std::int64_t node = n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2});
-    result |= static_cast<std::uint32_t>(bits(masks[node]) >> slot & 1) << b;
-  }
-  return result;
+  return of_cell([&](std::int64_t node) { return bits(state_.bonds.component(component)[node]); }, n);
 }
 
 std::uint32_t BondBreaking::broken_before(std::int64_t n) const {
-  std::uint32_t result = 0;
-  for (std::size_t b = 0; b < cell_bonds.size(); ++b) {
-    const auto [a, end, slot] = cell_bonds[b];
-    const std::int64_t node = n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2});
-    result |= static_cast<std::uint32_t>(model_.lattice.is_broken(slot, node)) << b;
-  }
-  return result;
+  return of_cell([&](std::int64_t node) { return model_.lattice.broken.component(0)[node]; }, n);
 }
 
 void BondBreaking::break_in_cell(std::int64_t n, std::uint32_t fresh, double dt) {

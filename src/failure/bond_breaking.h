@@ -41,6 +41,8 @@ class BondBreaking : public Fracturing {
   void mark_cells(std::int64_t n, int slot);
 
   // What that does to cells.
+  template <class F>
+  std::uint32_t of_cell(F&& of_node, std::int64_t n) const;
   std::uint32_t bonds_of_cell(std::int64_t n) const;
   std::uint32_t broken_before(std::int64_t n) const;
   std::uint32_t broken_now(std::int64_t n, int component = 0) const;
@@ -50,8 +52,8 @@ class BondBreaking : public Fracturing {
   void make_lattice_follow();
 
   // Forces and energies (bond_forces.cpp).
-  Vec3 vector(const mechanics::CellBond& bond) const;
-  Vec3 relative(const mechanics::CellMotion& motion, const mechanics::CellBond& bond, const Vec3& D) const;
+  template <class F>
+  void for_each_bond(std::int64_t n, std::uint32_t bonds, F&& f) const;
   double energy_lost(std::int64_t n, std::uint32_t fresh, double dt) const;
   double closing_loss(std::int64_t n, double dt) const;
   double stored_energy(std::int64_t n) const override;

@@ -38,8 +38,7 @@ struct Stiffness {
 
 /// A cell's part of a whole bond with shared springs: the material's stiffness over the number of cells in the bulk,
 /// times the cell's factor.
-inline Stiffness shared_part(const model::SpringLattice& body, int slot, std::int64_t cell) {
-  const int family = lattice::slots[slot].family;
+inline Stiffness shared_part(const model::SpringLattice& body, lattice::Family family, std::int64_t cell) {
   const material::Springs& springs = body.springs[body.cell.component(0)[cell]];
   const double share = body.factor_of(cell) / lattice::cells_per_bond[family];
   return {share * springs.kn[family], share * springs.kt[family]};
@@ -50,7 +49,7 @@ inline Stiffness shared_part(const model::SpringLattice& body, int slot, std::in
 inline Stiffness cell_part(const model::SpringLattice& body, int slot, std::int64_t node, std::int64_t cell) {
   if (body.sharing == material::Sharing::shared) {
     if (body.is_broken(slot, node)) return {0, 0};
-    return shared_part(body, slot, cell);
+    return shared_part(body, lattice::slots[slot].family, cell);
   }
   const double cells = body.bond_cells.component(slot)[node];
   if (cells == 0) return {0, 0};

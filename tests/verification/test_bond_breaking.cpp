@@ -1,32 +1,22 @@
-// Bodies whose bonds break (theory, section 12, "Bonds that break"): forces against the bond law, which bonds break,
-// and where the energy of a run goes.
+// Bodies whose bonds break (theory, section 12, "Bonds that break"): forces against the bond law, and which bonds
+// break.
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "driver/simulation.h"
 #include "failure/bond_breaking.h"
 #include "lattice/halo.h"
 #include "mechanics/bond_law.h"
 #include "mechanics/force_kernel.h"
 #include "mechanics/plain_forces.h"
-#include "support/cases.h"
+#include "support/breaking_block.h"
 
 namespace koshi {
 namespace {
 
-const material::Elastic rock{60e9, 0.2, 2700};
-
-model::Definition block(const Int3& cells, double d) {
-  model::Definition definition = test::block(cells, d, rock);
-  definition.lattice.calibration = material::Calibration::isotropic;
-  material::Fracture& fracture = definition.materials[0].fracture.emplace();
-  fracture.law = material::FractureLaw::bonds;
-  fracture.fracture_energy = 100;
-  return definition;
-}
+using test::block_of_bonds;
 
 void deform(const model::Model& model, model::State& state, const std::array<Vec3, 3>& gradient) {
   lattice::for_each(model.layout(), {-1, -1, -1}, model.layout().owned(), [&](auto i, auto j, auto k, auto n) {
@@ -39,7 +29,7 @@ void deform(const model::Model& model, model::State& state, const std::array<Vec
 // by e/3. A block of 3 x 2 x 2 cells has 3 9 edges along x, 4 (3 2 3) = 72 face diagonals across them in two kinds of
 // planes and 4 12 body diagonals; each cell 4, 8 and 4 of its 28.
 TEST(BondBreaking, BreaksWhatIsStretchedTooFar) {
-  model::Definition definition = block({3, 2, 2}, 0.01);
+  model::Definition definition = block_of_bonds({3, 2, 2}, 0.01);
   definition.materials[0].fracture->critical_stretch = 1e-3;
   for (const auto& [strain, bonds, damage] : {std::tuple{0.999e-3, 0, 0.0},
                                               {1.001e-3, 27, 4 / 28.0},
@@ -72,7 +62,7 @@ TEST(BondBreaking, BreaksWhatIsStretchedTooFar) {
 // u_x = g y shears edges along y by g, those along x and z not at all, face diagonals in the plane by g/2 with a
 // stretch of +-g/2. Cells are marked as sheared. Half as strong cells break at half of it.
 TEST(BondBreaking, BreaksWhatIsShearedTooFar) {
-  model::Definition definition = block({2, 3, 2}, 0.01);
+  model::Definition definition = block_of_bonds({2, 3, 2}, 0.01);
   definition.materials[0].fracture->critical_stretch = 1e-2;
   definition.materials[0].fracture->critical_shear = 1e-3;
   for (const auto& [strength, shear, bonds] :
@@ -98,7 +88,7 @@ TEST(BondBreaking, BreaksWhatIsShearedTooFar) {
 // Bonds that touch a material that does not break hold; those of two materials break by the energy of both: with the
 // same springs and critical stretches 1e-3 and 3e-3 the bonds between them at sqrt((1 + 9)/2) 1e-3 = 2.236e-3.
 TEST(BondBreaking, BondsBetweenMaterials) {
-  model::Definition definition = block({2, 1, 1}, 0.01);
+  model::Definition definition = block_of_bonds({2, 1, 1}, 0.01);
   definition.materials[0].fracture->critical_stretch = 1e-3;
   definition.materials.push_back(definition.materials[0]);
   definition.materials[1].name = "other";
@@ -127,7 +117,7 @@ TEST(BondBreaking, BondsBetweenMaterials) {
 TEST(BondBreaking, ForcesAreThoseOfTheBondsThatAreLeft) {
   std::mt19937_64 random(7);
   std::normal_distribution<double> normal(0, 1e-5);
-  model::Definition definition = block({5, 4, 3}, 0.01);
+  model::Definition definition = block_of_bonds({5, 4, 3}, 0.01);
   definition.body.cells.assign(60, 1);
   for (const std::size_t empty : {0, 17, 33}) definition.body.cells[empty] = 0;
   for (std::size_t c = 0; c < 60; ++c) definition.body.factors.push_back(static_cast<float>(1 + c % 5) / 5);
@@ -211,7 +201,7 @@ TEST(BondBreaking, PlanesTakeTheirEnergy) {
   const double r = 1 / std::numbers::sqrt2, s = std::numbers::inv_sqrt3;
   for (const auto& [n, energy] : {std::pair{Vec3{0, 1, 0}, 1.0}, {Vec3{r, r, 0}, 1.042}, {Vec3{s, s, s}, 1.074}}) {
     const double d = 0.01;
-    model::Model model = model::make_model(block({12, 12, 12}, d), Communicator::world());
+    model::Model model = model::make_model(block_of_bonds({12, 12, 12}, d), Communicator::world());
     model::State state(model);
     failure::BondBreaking breaking(model, state);
     const double step = 0.01 * d * failure::critical_stretch(model.lattice.springs[1], 100);
@@ -248,7 +238,7 @@ TEST(BondBreaking, CracksFromTheStart) {
   for (const auto& [x, length, bonds] : {std::tuple{0.03, 1.0, 25 + 80 + 64},
                                          {0.0399, 1.0, 25 + 80 + 64},
                                          {0.045, 0.04, 3 * 5 + 3 * 8 + 2 * 2 * 5 + 4 * 8}}) {
-    model::Definition definition = block({6, 4, 4}, 0.01);
+    model::Definition definition = block_of_bonds({6, 4, 4}, 0.01);
     crack.center[0] = x;
     crack.length = length;
     definition.pre_cracks = {crack};
@@ -269,7 +259,7 @@ TEST(BondBreaking, SidesOfACrackComeApart) {
     crack.center = {0.026, 0.027, 0.0281};
     crack.normal = n;
     crack.radius = 1;
-    model::Definition definition = block({5, 5, 5}, 0.01);
+    model::Definition definition = block_of_bonds({5, 5, 5}, 0.01);
     definition.pre_cracks = {crack};
     definition.materials[0].fracture->critical_stretch = 0.5;
     model::Model model = model::make_model(definition, Communicator::world());
@@ -295,84 +285,6 @@ TEST(BondBreaking, SidesOfACrackComeApart) {
     EXPECT_GT(largest, 1e3);
     EXPECT_LT(left / largest, 1e-12) << n[0] << n[1] << n[2];
   }
-}
-
-// A bar along x with a layer of weaker bonds in the middle, held and pulled by smooth platens.
-model::Definition bar() {
-  model::Definition definition = block({16, 2, 2}, 0.005);
-  definition.materials.push_back({"weak", rock, definition.materials[0].fracture});
-  definition.materials[0].fracture.reset();
-  model::RegionDefinition layer;
-  layer.material = "weak";
-  layer.min = {0.04, 0, 0};
-  layer.max = {0.045, 0.01, 0.01};
-  definition.regions = {layer};
-  model::BoundaryDefinition pull = test::fixed("pull", model::Face::x_max, {4, 5});
-  pull.displacement[0] = 1e-4;
-  definition.boundaries = {test::fixed("wall", model::Face::x_min, {0, 4, 5}), pull};
-  definition.probes = {test::probe("force", model::Face::x_max, model::ProbeDefinition::Quantity::reaction,
-                                   model::ProbeDefinition::Reduce::sum)};
-  definition.analysis.damping = {model::DampingDefinition::Kind::local, 0.3};
-  definition.output.history_every = 5e-6;
-  return definition;
-}
-
-struct Watched {
-  double peak = 0, last = 0, unbalanced = 0;
-  int rows = 0;
-  mechanics::Balance end;
-};
-
-Watched watch(const model::Definition& definition) {
-  driver::Simulation simulation(definition, Communicator::world());
-  Watched seen;
-  double largest = 0, gap = 0;
-  driver::Observer observer;
-  observer.history = [&](const mechanics::Measurement& at, model::State&) {
-    const mechanics::Balance& b = at.balance;
-    seen.last = at.probes[0][0];
-    seen.peak = std::max(seen.peak, at.probes[0][0]);
-    largest = std::max(largest, std::abs(b.given));
-    gap = std::max(gap, std::abs(b.leapfrog_energy + b.damped + b.cracked - b.given));
-    seen.end = b;
-    ++seen.rows;
-  };
-  simulation.run(observer);
-  seen.unbalanced = gap / largest;
-  return seen;
-}
-
-// Periodic across, so that all layers stay plane and the weak one takes G_f. In uniaxial strain edges break at e_c,
-// face diagonals at 2 e_c, body diagonals at 3 e_c. Up to 2 e_c the bonds left carry (5/4 + 3/2 t) kn/d of the strain,
-// t = kt/kn = 1/6 and kn = 16/15 mu d of an edge: the peak is 3 kn e_c/d = 3 16/15 25e9 4.160e-4 = 33.3 MPa, with e_c =
-// sqrt(200/ (8.667 1.333e8)).
-TEST(BondBreaking, BarsPartAndEnergiesAddUp) {
-  model::Definition definition = bar();
-  definition.body.periodic = {false, true, true};
-  definition.analysis.duration = 4.5e-3;
-  definition.analysis.time_step = 1e-7;
-  definition.boundaries[1].history = {{0, 0}, {3e-3, 0.8}, {4.5e-3, 1}};
-  const Watched seen = watch(definition);
-  EXPECT_NEAR(seen.end.cracked / 1e-4 / 100, 1, 0.02);
-  EXPECT_NEAR(seen.peak / 1e-4 / 33.3e6, 1, 0.02);
-  EXPECT_LT(std::abs(seen.last), 0.01 * seen.peak);
-  EXPECT_LT(seen.unbalanced, 1e-11);
-  EXPECT_GT(seen.end.damped, 0);
-  EXPECT_GT(seen.rows, 200);
-}
-
-// Pulled apart, pushed together and held: broken bonds carry pressure. Without their shear, a tenth of the stiffness
-// along x, the layer is softer by that, the bar of 16 layers by less than 1 %; with node rotations nodes turn along the
-// edges of the crack, some per cent in a bar of two cells across.
-TEST(BondBreaking, ClosedBondsCarryPressure) {
-  model::Definition definition = bar();
-  definition.analysis.duration = 4e-3;
-  definition.boundaries[1].history = {{0, 0}, {1e-3, 0.8}, {3e-3, -0.2}, {4e-3, -0.2}};
-  const Watched seen = watch(definition);
-  const double pressure = 60e9 * 1e-4 * 2e-5 / 0.08;
-  EXPECT_NEAR(-seen.last / pressure, 0.98, 0.03);
-  EXPECT_NEAR(seen.end.leapfrog_energy / (0.5 * pressure * 2e-5), 0.98, 0.03);
-  EXPECT_LT(seen.unbalanced, 1e-11);
 }
 
 }  // namespace
