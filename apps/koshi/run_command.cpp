@@ -47,6 +47,7 @@ void check_ranks(model::Definition definition, int ranks) {
   definition.loads.clear();
   definition.probes.clear();
   definition.analysis.stop_when.reset();  // it names a probe
+  definition.analysis.steps.reset();      // they need histories
   try {
     lattice::make_partition(model::make_grid(io::load_files(definition)), ranks);
   } catch (const InputError& error) {

@@ -273,6 +273,7 @@ struct AnalysisDefinition {
   double safety = 0.9;                        ///< of the automatic step: its ratio to the stable limit
   DampingDefinition damping;                  ///< unset in a dynamic run: none
   int events = 1000;                          ///< statics of a body that can crack: the most events of cracking
+  std::optional<int> steps{};                 ///< the same: equal steps through the histories; unset: event by event
   std::optional<StopDefinition> stop_when{};  ///< unset: the run goes on to its end
   std::string start_from;                     ///< output directory of an earlier run whose displacements are the start
   int count = 10;                             ///< modes
@@ -362,8 +363,10 @@ struct Definition {
   bool cracks() const;
   /// Whether it is bonds that break where a material can crack.
   bool breaks_bonds() const;
-  /// Whether this is an equilibrium that follows its cracks event by event.
+  /// Whether this is an equilibrium that follows its cracks.
   bool cracks_in_equilibrium() const { return analysis.type == AnalysisDefinition::Type::statics && cracks(); }
+  /// Whether that goes from one cracking cell to the next, instead of in steps of the loads.
+  bool follows_events() const { return cracks_in_equilibrium() && !analysis.steps; }
   /// Whether the stiffness of some material scatters.
   bool varies_in_stiffness() const;
   /// Whether some material can crack, and its cells do not all have its strength.

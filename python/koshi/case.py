@@ -253,8 +253,7 @@ class Analysis:
     type: Literal["static", "quasi-static", "dynamic", "modes"] | None = None
     """equilibrium solved directly (default), reached by damped stepping, motion, or natural frequencies"""
     tolerance: float | None = None
-    """static: relative residual; quasi-static: unbalanced-force ratio; modes: relative error of squared frequencies;
-    default 1e-8"""
+    """static: relative residual; quasi-static: unbalanced forces; modes: error of squared frequencies; default 1e-8"""
     duration: Quantity | None = None
     """[s], required for dynamic"""
     time_step: Quantity | None = None
@@ -267,9 +266,10 @@ class Analysis:
     """{"kind": "local", "factor": 0.8} (default of quasi-static), {"kind": "viscous", "rate": ...} or {"kind": "none"}"""
     events: int | None = None
     """static, of a body that can crack: the most events, default 1000"""
+    steps: int | None = None
+    """the same: equal steps through the histories of loads and motions, default event by event"""
     stop_when: Mapping[str, Quantity] | None = None
-    """what ends the run before its time: probe (of a reaction) with below (part of its largest), face (a crack has come
-    to it), after [s]; default nothing"""
+    """what ends the run: probe (of a reaction) with below (part of its largest), face (a crack is there), after [s]"""
     start_from: str | os.PathLike | None = None
     """output directory of an earlier run whose displacements are the start"""
     count: int | None = None

@@ -70,6 +70,10 @@ Together within_one_rise(std::span<const double> load_factors) {
   };
 }
 
+Together within_one_step() {
+  return [](double a, double b) { return a == b; };
+}
+
 std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const CrackedCell> all,
                                      const Together& together) {
   std::vector<CrackedCell> cells;  // by number

@@ -34,6 +34,9 @@ Together within_window(const model::Model& model);
 /// so far to the next would break all at once under loads that only rise.
 Together within_one_rise(std::span<const double> load_factors);
 
+/// In equilibrium by steps of the loads, where moments are the times of steps: what cracks in one step.
+Together within_one_step();
+
 /// Cells that belong together, and all that hang together by such pairs, are one event. By time, then by the number of
 /// the first cell. Cells that were cracked before the run are left out.
 std::vector<CrackEvent> crack_events(const lattice::Grid& grid, std::span<const CrackedCell> cells,

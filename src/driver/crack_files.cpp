@@ -32,8 +32,11 @@ nlohmann::ordered_json write_crack_files(const model::Model& model, model::State
                                          std::span<const double> load_factors, const std::filesystem::path& directory) {
   model.lattice.halo->exchange(state.displacement);
   const std::vector<CrackedCell> cells = cracked_cells(model, state);
-  const std::vector<CrackEvent> events = crack_events(
-      model.lattice.grid, cells, load_factors.empty() ? within_window(model) : within_one_rise(load_factors));
+  const std::vector<CrackEvent> events =
+      crack_events(model.lattice.grid, cells,
+                   !load_factors.empty()                      ? within_one_rise(load_factors)
+                   : model.definition.cracks_in_equilibrium() ? within_one_step()
+                                                              : within_window(model));
   io::write_table(model.communicator, directory / "events.csv", event_columns(load_factors),
                   event_rows(events, load_factors));
   if (model.definition.output.crack_surface)

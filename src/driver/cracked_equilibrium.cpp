@@ -21,10 +21,15 @@ CrackedEquilibrium::CrackedEquilibrium(model::Model& model, model::State& state,
       work_(model.layout(), model.components()),
       right_hand_side_(static_cast<std::size_t>(model.layout().owned_count() * model.components())),
       solver_(model, t, work_, options) {
-  solver_.equilibrium().right_hand_side(right_hand_side_.data());
-  solver_.free().require_balance(right_hand_side_.data());
+  set_time(t);
   solver_.equilibrium().add(faces.springs());
   faces.levels_are_made();
+}
+
+void CrackedEquilibrium::set_time(double t) {
+  solver_.equilibrium().set_time(t);
+  solver_.equilibrium().right_hand_side(right_hand_side_.data());
+  solver_.free().require_balance(right_hand_side_.data());
 }
 
 void CrackedEquilibrium::find() {
@@ -44,9 +49,8 @@ void CrackedEquilibrium::solve() {
   // It holds forces of prescribed motions, by springs that may be gone.
   solver_.equilibrium().right_hand_side(right_hand_side_.data());
   const statics::SolveReport report = solver_.improve(right_hand_side_.data(), state_.displacement);
-  if (first_) {
+  if (++solves_ == 1) {
     report_ = report;
-    first_ = false;
     return;
   }
   report_.iterations += report.iterations;

@@ -17,12 +17,17 @@ class CrackedEquilibrium {
   CrackedEquilibrium(model::Model& model, model::State& state, failure::ClosedFaces& faces, double t,
                      const statics::StaticOptions& options);
 
+  /// Takes loads and prescribed motions at another time [s] from now on. Throws as the constructor.
+  void set_time(double t);
+
   /// Brings the displacements to the equilibrium of the springs of now, with every crack closed or open as they say.
   /// Throws RunError when the solver or the cracks do not come to an end.
   void find();
 
   /// Of the first solve, with the iterations and seconds of all.
   const statics::SolveReport& report() const { return report_; }
+  /// Solves so far.
+  std::int64_t solves() const { return solves_; }
   /// Times that the levels were made.
   std::int64_t hierarchies() const { return hierarchies_; }
 
@@ -36,8 +41,7 @@ class CrackedEquilibrium {
   std::vector<double> right_hand_side_;
   statics::StaticSolver solver_;
   statics::SolveReport report_;
-  std::int64_t hierarchies_ = 1;
-  bool first_ = true;
+  std::int64_t solves_ = 0, hierarchies_ = 1;
   int least_ = 0, extra_ = 0;  ///< iterations of the first solve with these levels, and what later ones took more
 };
 

@@ -43,11 +43,13 @@ Json analysis(const model::Model& model, const model::State& state, const Outcom
     if (!s.free_motions.empty()) entry["free_motions"] = s.free_motions;
     if (outcome.path) {
       entry["reason"] = outcome.path->reason;
-      entry.update({{"events", outcome.path->events},
-                    {"cracked_cells", outcome.path->cracked},
-                    {"parted_cells", outcome.path->parted},
-                    {"hierarchies", outcome.path->hierarchies},
-                    {"peak", {{"event", outcome.path->peak_event}, {"load_factor", outcome.path->peak_load_factor}}}});
+      const CrackPath& path = *outcome.path;
+      if (model.definition.follows_events())
+        entry.update(
+            {{"events", path.events}, {"peak", {{"event", path.peak_event}, {"load_factor", path.peak_load_factor}}}});
+      else
+        entry.update({{"steps", path.steps}, {"equilibria", path.equilibria}, {"time", state.time}});
+      entry.update({{"cracked_cells", path.cracked}, {"parted_cells", path.parted}, {"hierarchies", path.hierarchies}});
       if (!outcome.stop_reason.empty()) entry["stop_reason"] = outcome.stop_reason;
     }
     return entry;
@@ -103,7 +105,7 @@ Json performance(const model::Model& model, const Outcome& outcome, const RunMem
 
 std::vector<std::string> history_columns(const model::Model& model) {
   std::vector<std::string> columns{"time [s]"};
-  if (model.definition.cracks_in_equilibrium()) columns = {"event [1]", "load factor [1]"};
+  if (model.definition.follows_events()) columns = {"event [1]", "load factor [1]"};
   for (const model::Probe& probe : model.probes) {
     const auto quantity = probe.definition.quantity;
     for (const std::string& component : mechanics::component_names(quantity))
@@ -126,7 +128,7 @@ std::vector<std::string> history_columns(const model::Model& model) {
 
 std::vector<double> history_row(const model::Model& model, double time, const mechanics::Measurement& measurement) {
   std::vector<double> row{time};
-  if (model.definition.cracks_in_equilibrium()) row.push_back(measurement.balance.load_factor);
+  if (model.definition.follows_events()) row.push_back(measurement.balance.load_factor);
   for (const mechanics::ProbeValue& value : measurement.probes) row.insert(row.end(), value.begin(), value.end());
   if (measurement.mean) {
     for (std::size_t c = 0; c < 6; ++c)
@@ -186,7 +188,14 @@ std::string macroscopic_text(const mechanics::MeanState& mean) {
 std::string headline(const model::Model& model, const Outcome& outcome) {
   std::string text;
   if (outcome.modes) return modes_text(*outcome.modes, outcome.seconds);
-  if (outcome.path) {
+  if (outcome.path && !model.definition.follows_events()) {
+    const CrackPath& path = *outcome.path;
+    text = fmt::format(
+        "equilibrium of {} unknowns, {} steps with {} solutions in {} iterations, {:.3g} s: {}\n"
+        "  {} cells cracked, {} of them through\n",
+        outcome.solution->unknowns, path.steps, path.equilibria, outcome.solution->iterations, outcome.seconds,
+        escaped(path.reason), path.cracked, path.parted);
+  } else if (outcome.path) {
     const CrackPath& path = *outcome.path;
     text = fmt::format(
         "equilibrium of {} unknowns, {} events in {} iterations, {:.3g} s: {}\n"

@@ -69,7 +69,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   nlohmann::ordered_json cracks;
   std::vector<double> load_factors;  // of an equilibrium that follows its cracks, by number of the event
   observer.history = [&](const mechanics::Measurement& measurement, model::State& at) {
-    if (definition.cracks_in_equilibrium()) load_factors.push_back(measurement.balance.load_factor);
+    if (definition.follows_events()) load_factors.push_back(measurement.balance.load_factor);
     history->write(history_row(model, at.time, measurement));
   };
   observer.fields = [&](model::State& at, double) {
@@ -134,8 +134,9 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
   });
   // What cracked until then is written like any other end.
   if (outcome.path && outcome.stopped && checkpoints.stop_requested())
-    throw RunError(fmt::format("stopped by a signal after {} events; the results so far are in {}",
-                               outcome.path->events, options.directory.string()));
+    throw RunError(fmt::format("stopped by a signal after {} {}; the results so far are in {}",
+                               definition.follows_events() ? outcome.path->events : outcome.path->steps,
+                               definition.follows_events() ? "events" : "steps", options.directory.string()));
   return outcome;
 }
 

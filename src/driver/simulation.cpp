@@ -72,10 +72,11 @@ Outcome Simulation::run(const Observer& observer, const std::vector<std::string>
   stepper_.reset();
   state();
   const Type type = model_->definition.analysis.type;
-  Outcome outcome = model_->definition.cracks_in_equilibrium() ? run_events(observer, petsc_options)
-                    : type == Type::statics                    ? run_static(observer, petsc_options)
-                    : type == Type::modes                      ? run_modes(observer)
-                                                               : run_explicit(observer);
+  Outcome outcome = model_->definition.follows_events()          ? run_events(observer, petsc_options)
+                    : model_->definition.cracks_in_equilibrium() ? run_load_steps(observer, petsc_options)
+                    : type == Type::statics                      ? run_static(observer, petsc_options)
+                    : type == Type::modes                        ? run_modes(observer)
+                                                                 : run_explicit(observer);
   lag_ = outcome.time_step;
   outcome.seconds = now() - start;
   return outcome;

@@ -98,6 +98,7 @@ class Simulation {
   mechanics::Measurement measure_at(double dt);
   Outcome run_static(const Observer& observer, const std::vector<std::string>& petsc_options);
   Outcome run_events(const Observer& observer, const std::vector<std::string>& petsc_options);
+  Outcome run_load_steps(const Observer& observer, const std::vector<std::string>& petsc_options);
   double work_of_supports();
   Outcome run_modes(const Observer& observer);
   Outcome run_explicit(const Observer& observer);

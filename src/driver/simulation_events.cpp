@@ -116,8 +116,7 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
 
   // One broken layer leaves the whole its trace of stiffness times the layers there are.
   const Int3& cells = model_->lattice.grid.cells;
-  const double parted =
-      1.5 * failure::CrackEvents::trace * static_cast<double>(std::max({cells[0], cells[1], cells[2]}));
+  const double parted = 1.5 * failure::Cracking::trace * static_cast<double>(std::max({cells[0], cells[1], cells[2]}));
 
   double factor = 1, peak = 0;
   for (bool changed = true;;) {
@@ -145,7 +144,7 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
     const bool done = !path.reason.empty();
     const std::optional<int> every = definition.output.every_events;
     if (observer.fields && (done || (every && path.events % *every == 0))) observer.fields(*state_, 0);
-    path.cracked = events.cracked();
+    path.cracked = cracking.count(0);
     if (observer.progress)
       observer.progress(
           static_cast<double>(path.events) / definition.analysis.events,
@@ -157,7 +156,7 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
   }
   outcome.solution = equilibrium.report();
   path.hierarchies = equilibrium.hierarchies();
-  path.parted = events.parted();
+  path.parted = cracking.count(1);
   outcome.converged = true;
   state_->time = end;
   return outcome;

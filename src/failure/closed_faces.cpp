@@ -88,9 +88,11 @@ void ClosedFaces::note() {
 }
 
 void ClosedFaces::note(std::int64_t fresh) {
-  if (!is_owned(fresh)) return;
-  const Vec3 normal = cracking_.load(fresh).normal;
-  noted_.push_back({fresh, mechanics::strain_along(model_.lattice, state_.displacement, fresh, normal), 0});
+  note(fresh, mechanics::strain_along(model_.lattice, state_.displacement, fresh, cracking_.load(fresh).normal));
+}
+
+void ClosedFaces::note(std::int64_t fresh, double strain) {
+  if (is_owned(fresh)) noted_.push_back({fresh, strain, 0});
 }
 
 // A spring of stiffness E' that opens on the way from strain e < 0 to e' > 0 gives back E' e^2/2; half the sum of its

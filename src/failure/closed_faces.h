@@ -20,6 +20,8 @@ class ClosedFaces {
   /// Closes the cracks that the state's displacements (ghosts up to date) press together and opens those that they pull
   /// apart; whether any has changed (collective).
   bool look();
+  /// Whether the cell counts on this rank.
+  bool is_owned(std::int64_t n) const;
   /// Takes the damage of cells as it is now.
   void restore();
   mechanics::FaceSprings& springs() { return springs_; }
@@ -33,6 +35,8 @@ class ClosedFaces {
   /// has cracked since and had none.
   void note();
   void note(std::int64_t fresh);
+  /// The same of a cell whose crack is strained by this across its normal at note().
+  void note(std::int64_t fresh, double strain);
   /// Cracks that closed or opened on the straight way from the state at note() to that at present: the work of loads on
   /// it, less half the sum of the forces before and after times the way [J] (collective).
   double bend() const;
@@ -59,7 +63,6 @@ class ClosedFaces {
     double strain, stiffness;
   };
   bool is_closed(std::int64_t n) const;
-  bool is_owned(std::int64_t n) const;
   mechanics::FaceSpring spring(std::int64_t n) const;
   float& factor(std::int64_t n) { return model_.lattice.factor.component(0)[n]; }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "failure/joint_energy.h"
 #include "lattice/halo.h"
 
 namespace koshi::failure {
@@ -21,36 +22,14 @@ constexpr double least_strength = 4e-3;
 CrackEvents::CrackEvents(Cracking& cracking, model::Model& model, model::State& state)
     : cracking_(cracking), model_(model), state_(state), faces_(cracking, model, state) {
   state_.face_force.zero();
-  for (const std::int64_t n : cracking_.cracked_) set_factor(n, cracking_.load(n).damage);
+  for (const std::int64_t n : cracking_.cracked_) cracking_.weaken(n, cracking_.load(n).damage);
 }
 
-void CrackEvents::set_factor(std::int64_t n, double damage) {
-  model_.lattice.factor.component(0)[n] =
-      static_cast<float>(std::max(1 - damage, trace) * static_cast<double>(cracking_.whole_.component(0)[n]));
-  cracking_.limit_.component(0)[n] = static_cast<float>(never);
-}
-
-// Energy that damage takes from a cell between two events, u.K u'/2 with the displacements at both, less what its
-// closed faces take over, for each unit of the factor at the second [J/m^3]. The first from squares of sums and
-// differences; both are made alike in size before.
+// Energy that damage takes from a cell between two events, less what its closed faces take over, for each unit of the
+// factor at the second [J/m^3].
 double CrackEvents::gain(const Loss& loss) const {
   const mechanics::CellMotion now = mechanics::cell_motion(model_.lattice, state_.displacement, loss.cell);
-  const auto square = [](const mechanics::CellMotion& motion) {
-    double sum = 0;
-    for (const Vec3& u : motion.displacement) sum += dot(u, u);
-    return sum;
-  };
-  const double size = square(now), scale = size > 0 ? std::sqrt(square(loss.motion) / size) : 0;
-  if (scale == 0) return 0;
-  const auto energy = [&](double sign) {
-    mechanics::CellMotion motion = loss.motion;
-    for (std::size_t a = 0; a < 8; ++a) {
-      motion.displacement[a] = motion.displacement[a] + (sign * scale) * now.displacement[a];
-      motion.rotation[a] = motion.rotation[a] + (sign * scale) * now.rotation[a];
-    }
-    return mechanics::cell_state(model_.lattice, motion, loss.cell).energy;
-  };
-  const double springs = (energy(1) - energy(-1)) / (4 * scale * model_.lattice.factor_of(loss.cell));
+  const double springs = joint_energy(model_.lattice, loss.cell, loss.motion, now);
   const double faces = 0.5 * cracking_.law(loss.cell).youngs_modulus() * loss.pressed * faces_.pressed(loss.cell);
   return loss.damage * (springs - faces);
 }
@@ -153,13 +132,14 @@ void CrackEvents::soften(std::int64_t n) {
 
   const double before = 1 - crack.damage, left = before * equivalent / crack.limit;
   double after = std::max(0.5, 1 - tooth / left) * before;
-  if (crack.ratio <= 1 || left < least_strength || after < trace) after = 0;
+  if (crack.ratio <= 1 || left < least_strength || after < Cracking::trace) after = 0;
   crack.damage = 1 - after;
   cracking_.store(n, crack);
   if (1 - before < model::parted && crack.damage >= model::parted)
     state_.crack.component(Cracking::moment)[n] = state_.time;
-  set_factor(n, crack.damage);
-  losses_.push_back({n, before - std::max(after, trace), mechanics::cell_motion(model_.lattice, state_.displacement, n),
+  cracking_.weaken(n, crack.damage);
+  losses_.push_back({n, before - std::max(after, Cracking::trace),
+                     mechanics::cell_motion(model_.lattice, state_.displacement, n),
                      std::min(along(strain, crack.normal), 0.0)});
   if (!fresh) return;
   cracking_.cracked_.push_back(n);
@@ -169,15 +149,6 @@ void CrackEvents::soften(std::int64_t n) {
 void CrackEvents::unload() {
   scale(1 / factor_);
   factor_ = 1;
-}
-
-std::int64_t CrackEvents::count(double at_least) const {
-  std::int64_t number = 0;
-  lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) {
-    const Crack crack = cracking_.load(n);
-    number += crack.kappa > 0 && crack.damage >= at_least ? 1 : 0;
-  });
-  return model_.communicator.sum(number);
 }
 
 }  // namespace koshi::failure

@@ -12,9 +12,6 @@ namespace koshi::failure {
 /// are, every rank follows all cells that touch its nodes. Displacements are those of the unit load, times a factor.
 class CrackEvents {
  public:
-  /// Stiffness that broken cells keep, over that of whole ones. Nodes between them hang on it.
-  static constexpr double trace = 1e-6;
-
   /// `cracking` is that of the model and the state, made or restored before. Closed cracks carry what faces() say from
   /// then on, and cells that have cracked through keep a trace of their springs, which holds the nodes on them.
   CrackEvents(Cracking& cracking, model::Model& model, model::State& state);
@@ -35,10 +32,6 @@ class CrackEvents {
   /// Which cracks are closed; to be looked at after each solve.
   ClosedFaces& faces() { return faces_; }
 
-  /// Cells that have cracked, and those that have cracked through (collective).
-  std::int64_t cracked() const { return count(0); }
-  std::int64_t parted() const { return count(1); }
-
  private:
   /// A cell that lost springs at the last event: the energy of that is known at the next one.
   struct Loss {
@@ -57,9 +50,7 @@ class CrackEvents {
   double gain(const Loss& loss) const;
   double factor_of_cracked(std::int64_t n) const;
   void soften(std::int64_t n);
-  void set_factor(std::int64_t n, double damage);
   void scale(double factor);
-  std::int64_t count(double at_least) const;
 
   Cracking& cracking_;
   model::Model& model_;

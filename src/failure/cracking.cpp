@@ -113,6 +113,21 @@ void Cracking::set_factor(std::int64_t n, const Crack& crack) {
 
 void Cracking::look_again() { std::fill(reach_.begin(), reach_.end(), 0); }
 
+void Cracking::weaken(std::int64_t n, double of_damage) {
+  model_.lattice.factor.component(0)[n] =
+      static_cast<float>(std::max(1 - of_damage, trace) * static_cast<double>(whole_.component(0)[n]));
+  limit_.component(0)[n] = std::numeric_limits<float>::infinity();
+}
+
+std::int64_t Cracking::count(double at_least) const {
+  std::int64_t number = 0;
+  lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) {
+    const Crack crack = load(n);
+    number += crack.kappa > 0 && crack.damage >= at_least ? 1 : 0;
+  });
+  return model_.communicator.sum(number);
+}
+
 void Cracking::follow(double dt) {
   const Int3& owned = model_.layout().owned();
   const std::size_t before = cracked_.size();

@@ -22,6 +22,9 @@ inline std::size_t cell_row(const lattice::Layout& layout, std::int64_t j, std::
 /// that touch its nodes, so that the bits do not depend on the ranks and no cracks are exchanged.
 class Cracking : public Fracturing {
  public:
+  /// Stiffness that broken cells keep in equilibrium, over that of whole ones. Nodes between them hang on it.
+  static constexpr double trace = 1e-6;
+
   /// The model must have a material that can crack, and its cells their factors without cracks; it has those with the
   /// cracks of the state from then on.
   Cracking(model::Model& model, model::State& state);
@@ -31,6 +34,9 @@ class Cracking : public Fracturing {
   void add_forces(std::int64_t j, std::int64_t k, double* const* force) const override;
   void look_again() override;
 
+  /// Cells that have cracked with at least this damage (collective).
+  std::int64_t count(double at_least) const;
+
   /// Raises the damage of owned cells to `wanted` where that is above what they have, with cracks of unit normal n;
   /// cells that have cracked keep their normal (collective). Throws InputError for a value outside 0 ... 1, or above 0
   /// in a cell that cannot crack.
@@ -38,6 +44,7 @@ class Cracking : public Fracturing {
 
  private:
   friend class CrackEvents;  // of the same cells, in equilibrium
+  friend class CrackSteps;
   friend class ClosedFaces;
   /// Fills mean_ and radius_ for the row of cells (j, k), from i = -1 on.
   void look_at_row(std::int64_t j, std::int64_t k);
@@ -51,6 +58,8 @@ class Cracking : public Fracturing {
   }
   void set_factor(std::int64_t n, const Crack& crack);
   double stored_energy(std::int64_t n) const override;
+  /// In equilibrium: broken cells keep a trace of their springs, and rows of cells pass by those that have cracked.
+  void weaken(std::int64_t n, double of_damage);
   double intact_energy(std::int64_t n, double dt) const;
   void note(std::int64_t n);
   void clear_faces();

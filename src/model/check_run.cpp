@@ -35,6 +35,29 @@ void check_output_of_modes(const Checker& check) {
   refuse("checkpoint_every_wall", output.checkpoint_wall.has_value());
 }
 
+// Whether a load or a motion changes with time.
+bool changes(const Definition& definition) {
+  const auto lasts = [](const auto& condition) {
+    return !condition.history.empty() && condition.history.back()[0] > 0;
+  };
+  return std::ranges::any_of(definition.loads, lasts) || std::ranges::any_of(definition.boundaries, lasts) ||
+         std::ranges::any_of(definition.boundaries, [](const BoundaryDefinition& b) { return b.ramp > 0; });
+}
+
+void check_steps(const Checker& check) {
+  const std::optional<int>& steps = check.definition.analysis.steps;
+  if (!steps) return;
+  check.within(ranges::event_count, "analysis.steps", *steps);
+  if (!check.definition.cracks())
+    check.fail("analysis.steps",
+               "steps follow the cracks of a body through its loads, and no material of this one can crack; such an "
+               "equilibrium is found at once: give a material a fracture, or leave steps out");
+  if (!changes(check.definition))
+    check.fail("analysis.steps",
+               "steps go through the histories of loads and motions, and there is none that takes time; give what "
+               "grows a history, such as history = [[\"0 s\", 0], [\"1 s\", 1]]");
+}
+
 }  // namespace
 
 void check_run(const Checker& check) {
@@ -49,6 +72,7 @@ void check_run(const Checker& check) {
   check.within(ranges::damping_rate, "analysis.damping.rate", analysis.damping.rate);
 
   check.within(ranges::event_count, "analysis.events", analysis.events);
+  check_steps(check);
   check.within(ranges::mode_count, "analysis.count", analysis.count);
   check.within(ranges::frequency, "analysis.near", analysis.near);
   if (analysis.type == AnalysisDefinition::Type::modes) check_output_of_modes(check);
@@ -69,11 +93,10 @@ void check_run(const Checker& check) {
                "surface is that of the regions, and there are none; make the body of regions, or leave it out");
   check.within(ranges::time, "output.every", output.every);
   if (output.every_events) check.within(ranges::event_count, "output.every_events", *output.every_events);
-  if (output.every_events && !check.definition.cracks_in_equilibrium())
-    check.fail(
-        "output.every_events",
-        "every_events counts the events of a static body that cracks, and this is none; samples of a run in time "
-        "are taken by every");
+  if (output.every_events && !check.definition.follows_events())
+    check.fail("output.every_events",
+               "every_events counts the events of a static body that cracks without steps, and this is none; samples "
+               "of a run in time or in steps are taken by every");
   check.within(ranges::time, "output.history_every", output.history_every);
   check.within(ranges::time, "output.checkpoint_every", output.checkpoint_every);
   check.within(ranges::time, "output.checkpoint_every_wall", output.checkpoint_wall);

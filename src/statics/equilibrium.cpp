@@ -37,12 +37,19 @@ Equilibrium::Equilibrium(const model::Model& model, double t, lattice::Field<dou
     FixedNode fixed{{i, j, k}, 0};
     for (; motion != model.motions.end() && motion->node == n; ++motion) {
       fixed.mask |= static_cast<std::uint8_t>(1 << motion->component);
-      const double factor = model::factor(boundaries[static_cast<std::size_t>(motion->boundary)], t);
-      prescribed_.push_back({number + motion->component * node_count_, n, motion->component, factor * motion->value});
+      prescribed_.push_back(
+          {number + motion->component * node_count_, n, motion->component, motion->boundary, motion->value, 0});
     }
     if (fixed.mask != 0) fixed_.push_back(fixed);
     ++number;
   });
+  set_time(t);
+}
+
+void Equilibrium::set_time(double t) {
+  t_ = t;
+  for (Prescribed& p : prescribed_)
+    p.value = p.amount * model::factor(model_.definition.boundaries[static_cast<std::size_t>(p.boundary)], t);
 }
 
 std::int64_t Equilibrium::unknown_of(std::int64_t j, std::int64_t k) const {

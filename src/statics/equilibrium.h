@@ -20,6 +20,9 @@ class Equilibrium {
   /// for a prescribed velocity (collective).
   Equilibrium(const model::Model& model, double t, lattice::Field<double>& work);
 
+  /// Takes loads and prescribed motions at another time [s] from now on.
+  void set_time(double t);
+
   std::int64_t size() const { return node_count_ * components_; }
   /// Loads, and forces from prescribed displacements and a mean strain of periodic bodies, on free components: the
   /// right-hand side for what has to be added to both (collective).
@@ -63,8 +66,8 @@ class Equilibrium {
   FixedNodes fixed_;
   struct Prescribed {
     std::int64_t unknown, node;
-    int component;
-    double value;
+    int component, boundary;
+    double amount, value;  ///< of its definition, and at the present time
   };
   std::vector<Prescribed> prescribed_;
 };

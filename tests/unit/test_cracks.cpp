@@ -117,7 +117,7 @@ TEST(PreCracks, WhatIsWrongIsSaidAtTheKey) {
       {"analysis.stop_when={face='x'}", "unknown face \"x\""},
       {"analysis={type='modes', stop_when={face='x-max'}}", "\"stop_when\" has no meaning here"},
       {"analysis={type='static', stop_when={face='x-max', after=1}}",
-       "a static analysis has no time that could pass before; leave after out"},
+       "a static analysis without steps has no time that could pass before; leave after out"},
   };
   for (const auto& [override_text, message] : wrong)
     EXPECT_THAT([&] { cracked(read({override_text})); }, ThrowsMessage<InputError>(HasSubstr(message)))

@@ -279,7 +279,7 @@ TEST(Ranges, HaveTheUnitOfTheirKey) {
                 check_units<StopDefinition>() + check_units<SelectionDefinition>() + check_units<SphereShape>() +
                 check_units<CylinderShape>() + check_units<HalfSpaceShape>() + check_units<MeanStrain>() +
                 check_units<MeanStress>(),
-            1 + 2 + 9 + 3 + 5 + 9 + 7 + 7 + 6 + 3 + 4 + 4 + 6 + 1 + 6 + 2 + 2 + 2 + 3 + 2 + 6 + 6);
+            1 + 2 + 9 + 3 + 5 + 9 + 7 + 8 + 6 + 3 + 4 + 4 + 6 + 1 + 6 + 2 + 2 + 2 + 3 + 2 + 6 + 6);
 }
 
 // A fracture with nothing wrong but what it is given.

@@ -5,81 +5,18 @@
 #include <cmath>
 #include <vector>
 
-#include "driver/simulation.h"
 #include "failure/softening.h"
-#include "support/cases.h"
+#include "support/cracking_bar.h"
 
 namespace koshi {
 namespace {
 
 using enum material::Kinematics;
-const material::Elastic concrete{30e9, 0.2, 2400};
-
-// A bar of 80 mm x 10 mm x 10 mm along x of which only one layer of cells can crack, at 3 MPa for 100 J/m^2, pulled
-// between smooth platens.
-model::Definition bar(double d, material::Kinematics kinematics, material::Softening softening) {
-  model::Definition definition =
-      test::block({std::llround(0.08 / d), std::llround(0.01 / d), std::llround(0.01 / d)}, d, concrete);
-  definition.materials.push_back({"weak", concrete, material::Fracture{}});
-  material::Fracture& fracture = *definition.materials[1].fracture;
-  fracture.tensile_strength = 3e6;
-  fracture.fracture_energy = 100;
-  fracture.softening = softening;
-  model::RegionDefinition layer;
-  layer.material = "weak";
-  layer.min = {0.04, 0, 0};
-  layer.max = {0.04 + d, 0.01, 0.01};
-  definition.regions = {layer};
-  model::BoundaryDefinition pull = test::fixed("pull", model::Face::x_max, {});
-  pull.displacement[0] = 1e-4;
-  model::BoundaryDefinition point = test::fixed("point", model::Face::x_min, {1, 2});
-  point.selection = {};
-  point.selection.point = Vec3{0, 0, 0};
-  model::BoundaryDefinition edge = point;
-  edge.name = "edge";
-  edge.selection.point = Vec3{0, 0.01, 0};
-  edge.fix[1] = false;
-  definition.boundaries = {test::fixed("wall", model::Face::x_min, {0}), pull, point, edge};
-  definition.lattice.kinematics = kinematics;
-  if (kinematics == rotational)  // smooth platens turn no node
-    for (std::size_t b : {0u, 1u}) definition.boundaries[b].fix[4] = definition.boundaries[b].fix[5] = true;
-  definition.probes = {test::probe("force", model::Face::x_max, model::ProbeDefinition::Quantity::reaction,
-                                   model::ProbeDefinition::Reduce::sum)};
-  definition.analysis = {};
-  definition.analysis.type = model::AnalysisDefinition::Type::statics;
-  definition.analysis.tolerance = 1e-9;
-  return definition;
-}
-
-struct Row {
-  double factor, force;
-  mechanics::Balance balance;
-};
-
-struct Followed {
-  std::vector<Row> rows;
-  driver::Outcome outcome;
-};
-
-Followed follow(const model::Definition& definition) {
-  driver::Simulation simulation(definition, Communicator::world());
-  Followed followed;
-  driver::Observer observer;
-  observer.history = [&](const mechanics::Measurement& at, model::State& state) {
-    EXPECT_EQ(state.time, static_cast<double>(followed.rows.size()));
-    followed.rows.push_back({at.balance.load_factor, at.probes.empty() ? 0 : at.probes[0][0], at.balance});
-  };
-  followed.outcome = simulation.run(observer);
-  return followed;
-}
-
-// Elastic energy and what cracks took are the work of loads and supports; the largest gap over the work at the end.
-double gap(const Followed& followed) {
-  double largest = 0;
-  for (const Row& row : followed.rows)
-    largest = std::max(largest, std::abs(row.balance.elastic_energy + row.balance.cracked - row.balance.given));
-  return largest / followed.rows.back().balance.given;
-}
+using test::cracking_bar;
+using test::CrackRow;
+using test::energy_gap;
+using test::follow_cracks;
+using test::Followed;
 
 // The layer cracks at f_t and takes G_f for its area of 1 cm^2 until it has parted, for all spacings and both
 // softenings, to a thousandth of the strength (cells within a thousandth crack together) and half a per cent of the
@@ -91,13 +28,13 @@ TEST(CrackEvents, BarsTakeStrengthAndEnergy) {
   for (const auto softening : {linear, exponential})
     for (const auto& [kinematics, d] :
          {std::pair{least_squares, 0.01}, {least_squares, 0.005}, {least_squares, 0.0025}, {rotational, 0.005}}) {
-      const Followed seen = follow(bar(d, kinematics, softening));
+      const Followed seen = follow_cracks(cracking_bar(d, kinematics, softening));
       double peak = 0;
-      for (const Row& row : seen.rows) peak = std::max(peak, row.force);
+      for (const CrackRow& row : seen.rows) peak = std::max(peak, row.force);
       const bool turns = kinematics == rotational;
       EXPECT_NEAR(peak / (1e-4 * 3e6), turns ? 1.025 : 1, turns ? 0.007 : 1e-3) << d;
       EXPECT_NEAR(seen.rows.back().balance.cracked / (1e-4 * 100), 1, 5e-3) << d;
-      EXPECT_LT(gap(seen), 1e-6) << d;
+      EXPECT_LT(energy_gap(seen), 1e-6) << d;
       EXPECT_EQ(seen.outcome.path->reason, "the body has parted") << d;
       const auto layer = static_cast<std::int64_t>(std::pow(std::llround(0.01 / d), 2));
       EXPECT_EQ(seen.outcome.path->cracked, layer);
@@ -113,14 +50,14 @@ TEST(CrackEvents, BarsTakeStrengthAndEnergy) {
 // 80/(2 3) times what its crack takes, and force and displacement go back together. In cells of 2.5 mm < 2 l_ch the
 // strength is kept.
 TEST(CrackEvents, PassSnapBack) {
-  model::Definition definition = bar(0.0025, least_squares, material::Softening::linear);
+  model::Definition definition = cracking_bar(0.0025, least_squares, material::Softening::linear);
   definition.materials[1].fracture->tensile_strength = 10e6;
   definition.materials[1].fracture->fracture_energy = 10;
-  const Followed seen = follow(definition);
+  const Followed seen = follow_cracks(definition);
   ASSERT_GT(seen.rows.size(), 10u);
   EXPECT_NEAR(seen.rows[1].force / (1e-4 * 10e6), 1, 1e-3);
   EXPECT_NEAR(seen.rows.back().balance.cracked / (1e-4 * 10), 1, 0.01);
-  EXPECT_LT(gap(seen), 1e-6);
+  EXPECT_LT(energy_gap(seen), 1e-6);
   int back = 0;
   for (std::size_t r = 2; r < seen.rows.size(); ++r)
     back += seen.rows[r].factor < 0.5 * seen.rows[1].factor && seen.rows[r].force > 0.01 * seen.rows[1].force;
@@ -129,9 +66,9 @@ TEST(CrackEvents, PassSnapBack) {
 
 // Nothing cracks in a bar that is pressed: the answer is that of the equilibrium without a fracture, at factor 1.
 TEST(CrackEvents, WithoutCracksItIsTheEquilibrium) {
-  model::Definition definition = bar(0.005, least_squares, material::Softening::linear);
+  model::Definition definition = cracking_bar(0.005, least_squares, material::Softening::linear);
   definition.boundaries[1].displacement[0] = -1e-4;
-  const Followed seen = follow(definition);
+  const Followed seen = follow_cracks(definition);
   ASSERT_EQ(seen.rows.size(), 2u);
   EXPECT_EQ(seen.outcome.path->reason, "nothing cracks any more");
   EXPECT_EQ(seen.rows[0].force, 0);
@@ -142,7 +79,7 @@ TEST(CrackEvents, WithoutCracksItIsTheEquilibrium) {
 
 // A bar under a given force is the same bar: its factor peaks with the strength, and its stiffness falls.
 TEST(CrackEvents, LoadsAreScaled) {
-  model::Definition definition = bar(0.005, least_squares, material::Softening::exponential);
+  model::Definition definition = cracking_bar(0.005, least_squares, material::Softening::exponential);
   definition.boundaries.erase(definition.boundaries.begin() + 1);
   model::LoadDefinition load;
   load.name = "pull";
@@ -151,17 +88,17 @@ TEST(CrackEvents, LoadsAreScaled) {
   load.history = {{0, 0}, {1, 0.5}};
   definition.loads = {load};
   definition.probes.clear();
-  const Followed seen = follow(definition);
+  const Followed seen = follow_cracks(definition);
   EXPECT_NEAR(seen.outcome.path->peak_load_factor, 3, 3e-3);
   EXPECT_EQ(seen.outcome.path->reason, "the body has parted");
   EXPECT_NEAR(seen.rows.back().balance.cracked / (1e-4 * 100), 1, 5e-3);
-  EXPECT_LT(gap(seen), 1e-6);
+  EXPECT_LT(energy_gap(seen), 1e-6);
 }
 
 TEST(CrackEvents, EndAtTheNumberAskedFor) {
-  model::Definition definition = bar(0.005, least_squares, material::Softening::exponential);
+  model::Definition definition = cracking_bar(0.005, least_squares, material::Softening::exponential);
   definition.analysis.events = 3;
-  const Followed seen = follow(definition);
+  const Followed seen = follow_cracks(definition);
   EXPECT_EQ(seen.rows.size(), 4u);
   EXPECT_EQ(seen.outcome.path->reason, "number of events");
 }

@@ -42,11 +42,17 @@ const std::vector<Key<AnalysisDefinition>>& keys_of(Tag<AnalysisDefinition>) {
       of_stepped(key<D>("damping", &D::damping,
                         "Damping of the motion; unset: local with factor 0.8 for quasi-static, none for dynamic.",
                         {.title = "damping", .example = R"({kind = "local", factor = 0.8})"})),
+      key<D>("steps", &D::steps,
+             "Of a body that can crack: equal steps through the histories of loads and motions, each with the cracks "
+             "that its equilibrium has; unset: event by event.",
+             {.range = ranges::event_count, .example = "50"})
+          .only_for("type \"static\"", {"type"}, [](const D& analysis) { return analysis.type == Type::statics; }),
       key<D>("events", &D::events,
              "Of a body that can crack: the most events, in each of which the next cells crack and the equilibrium is "
              "found anew.",
              {.range = ranges::event_count, .example = "1000"})
-          .only_for("type \"static\"", {"type"}, [](const D& analysis) { return analysis.type == Type::statics; }),
+          .only_for("type \"static\" without steps", {"type", "steps"},
+                    [](const D& analysis) { return analysis.type == Type::statics && !analysis.steps; }),
       of_runs(key<D>("stop_when", &D::stop_when, "What ends the run before its time; unset: nothing.",
                      {.title = "stop_when", .example = R"({probe = "pull", below = 0.2})"})),
       of_runs(key<D>("start_from", &D::start_from,

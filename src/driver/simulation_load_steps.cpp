@@ -1,0 +1,109 @@
+// Equilibrium that goes through the histories in steps, with the cracks of each (theory, section 12).
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "driver/cracked_equilibrium.h"
+#include "driver/simulation.h"
+#include "driver/step_work.h"
+#include "driver/stop_criteria.h"
+#include "failure/crack_steps.h"
+
+namespace koshi::driver {
+namespace {
+
+// A step has come to its end when no cell is off its strength by more than this part of it.
+constexpr double close = 1e-3;
+// It takes some tens of equilibria where many cells crack; hundreds mean that the force falls faster than a step can
+// follow.
+constexpr int most_equilibria = 1000;
+
+}  // namespace
+
+Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<std::string>& petsc_options) {
+  const model::Definition& definition = model_->definition;
+  const int count = *definition.analysis.steps;
+  const double duration = statics::end_time(definition);
+  statics::StaticOptions options;
+  options.tolerance = definition.analysis.tolerance;
+  options.petsc_options = petsc_options;
+  options.progress = [&](int, double) {
+    if (observer.breathe) observer.breathe();
+  };
+
+  // Bonds break in motion only, as the check of the definition has it.
+  auto& cracking = dynamic_cast<failure::Cracking&>(*fracturing());
+  cracking.restore();
+  state_->displacement.zero();
+  failure::CrackSteps cracks(cracking, *model_, *state_);
+  CrackedEquilibrium equilibrium(*model_, *state_, cracks.faces(), duration, options);
+  StepWork work(*model_, *meter_);
+
+  Outcome outcome;
+  CrackPath& path = outcome.path.emplace();
+  const auto sample = [&](double given) {
+    outcome.measurement = meter_->measure(*state_, 0);
+    mechanics::Balance& measured = outcome.measurement.balance;
+    const double pressed = cracks.faces().energy();
+    measured.elastic_energy += pressed;
+    measured.leapfrog_energy += pressed;
+    measured.given = given;
+    measured.cracked = cracking.energy_taken();
+    if (observer.history) observer.history(outcome.measurement, *state_);
+  };
+
+  // The first row is the body at rest, before anything acts on it.
+  state_->time = 0;
+  sample(0);
+  for (bool done = false; !done;) {
+    const double before = state_->time, t = duration * static_cast<double>(path.steps + 1) / count;
+    cracks.begin();
+    equilibrium.set_time(t);
+    state_->time = t;
+    // Equilibrium and damage in turn, until they go together.
+    int equilibria = 0;
+    for (;;) {
+      equilibrium.find();
+      const double off = cracks.look();
+      if (off <= close || cracks.fly()) break;
+      if (++equilibria > most_equilibria)
+        throw RunError(fmt::format(
+            "step {} of {} (t = {:.6g} s) finds no end: after {} equilibria a cell is still off its strength by {:.1e} "
+            "of it; take smaller steps (more analysis.steps), or follow cracks event by event (without steps)",
+            path.steps + 1, count, t, equilibria, off));
+      cracks.take();
+    }
+    ++path.steps;
+    if (cracks.fly()) {
+      cracks.undo();
+      state_->time = before;
+      path.reason = fmt::format("the body has parted in step {}", path.steps);
+      done = true;
+    } else {
+      cracks.end();
+      sample(work.add(*state_, cracks.bend()));
+      outcome.stopped = observer.poll && observer.poll(*state_);
+      outcome.stop_reason = reason_to_stop(*model_, *state_, outcome.measurement);
+      path.reason = !outcome.stop_reason.empty() ? outcome.stop_reason
+                    : path.steps == count        ? "the end of the histories"
+                    : outcome.stopped            ? "stopped"
+                                                 : "";
+      done = !path.reason.empty();
+    }
+    path.cracked = cracking.count(0);
+    const double every = definition.output.every.value_or(0);
+    const auto samples = [every](double time) { return std::floor(time / every + 1e-9); };
+    if (observer.fields && (done || (every > 0 && samples(t) > samples(before)))) observer.fields(*state_, 0);
+    if (observer.progress)
+      observer.progress(static_cast<double>(path.steps) / count,
+                        fmt::format("step {} of {}, {} equilibria, {} cells cracked", path.steps, count, equilibria + 1,
+                                    path.cracked));
+  }
+  outcome.solution = equilibrium.report();
+  path.equilibria = equilibrium.solves();
+  path.hierarchies = equilibrium.hierarchies();
+  path.parted = cracking.count(1);
+  return outcome;
+}
+
+}  // namespace koshi::driver
