@@ -14,10 +14,12 @@ export function readBlock() {
 }
 
 /**
- * Numbers of an Array of the format: a plain JSON list (null = not a number) or {dtype, encoding, data}.
+ * Numbers of an Array of the format: a plain JSON list (null = not a number) or {dtype, encoding, data}; those decoded
+ * before stay as they are.
  * @returns {Float32Array|Float64Array|Int32Array|Uint8Array}
  */
 export function decode(array) {
+  if (ArrayBuffer.isView(array)) return array;
   if (Array.isArray(array)) return Float64Array.from(array, (value) => value ?? NaN);
   const type = TYPES[array.dtype];
   if (!type) throw new Error(`unknown dtype "${array.dtype}"`);

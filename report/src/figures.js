@@ -26,7 +26,7 @@ export function figure({ title, note, view, panels }, body) {
     picture.scene.setLineColours(colourOf("--figure-line"), colourOf("--figure-line"));
     panels.forEach((panel, i) => {
       const { field, component, sample = 0 } = panel;
-      const state = { sample, field, choice: component, limits: null, scale: scaleOf(panel), cut: null, lines: "edges", outline: true };
+      const state = { surface: body.surfaces[0], sample, field, choice: component, limits: null, scale: scaleOf(panel), cut: null, lines: "edges", outline: true };
       picture.draw(state);
       picture.scene.view(view ?? "oblique");
       places[i].image.src = picture.scene.capture();

@@ -15,6 +15,13 @@ export function readMesh(block, decode) {
   };
 }
 
+/** A copy of values, `width` for each point, in which some points have others. */
+export function replaced(values, width, points, others) {
+  const copy = values.slice();
+  points.forEach((point, i) => copy.set(others.subarray(width * i, width * (i + 1)), width * point));
+  return copy;
+}
+
 /** {min: [x, y, z], max: [x, y, z]} of points stored x, y, z, x, y, z, … */
 export function bounds(points) {
   const min = [Infinity, Infinity, Infinity];
@@ -27,12 +34,17 @@ export function bounds(points) {
   return { min, max };
 }
 
-// Which of the six lattice directions a quad faces, 0..5: the largest component of the cross product of its diagonals.
-function facing(points, quads, q) {
+// The cross product of a quad's diagonals: its normal, as long as twice its area.
+function doubleArea(points, quads, q) {
   const [a, b, c, d] = [quads[4 * q], quads[4 * q + 1], quads[4 * q + 2], quads[4 * q + 3]];
   const p = [0, 1, 2].map((i) => points[3 * c + i] - points[3 * a + i]);
   const r = [0, 1, 2].map((i) => points[3 * d + i] - points[3 * b + i]);
-  const normal = [p[1] * r[2] - p[2] * r[1], p[2] * r[0] - p[0] * r[2], p[0] * r[1] - p[1] * r[0]];
+  return [p[1] * r[2] - p[2] * r[1], p[2] * r[0] - p[0] * r[2], p[0] * r[1] - p[1] * r[0]];
+}
+
+// Which of the six lattice directions a quad faces, 0..5: the largest component of the cross product of its diagonals.
+function facing(points, quads, q) {
+  const normal = doubleArea(points, quads, q);
   const sizes = normal.map(Math.abs);
   const axis = sizes.indexOf(Math.max(...sizes));
   return 2 * axis + (normal[axis] > 0 ? 1 : 0);
@@ -64,6 +76,37 @@ export function edges(points, quads, creasesOnly) {
     if (!creasesOnly || !smooth) pairs.push(Math.floor(edge / count), edge % count);
     i = next;
   }
+  return Int32Array.from(pairs);
+}
+
+// Quads that meet at less than this angle belong to one smooth surface.
+const SMOOTH = Math.cos((40 * Math.PI) / 180);
+// Smaller quads, as parts of their mean, are slivers that face anywhere.
+const SLIVER = 0.05;
+
+/**
+ * Edges of a surface whose quads lie any way, as pairs of point indices: where two quads meet at an angle, and where
+ * the surface ends.
+ */
+export function creases(points, quads) {
+  const count = points.length / 3;
+  const areas = Array.from({ length: quads.length / 4 }, (_, q) => doubleArea(points, quads, q));
+  const sizes = areas.map((area) => Math.hypot(...area));
+  const least = (SLIVER * sizes.reduce((sum, size) => sum + size, 0)) / sizes.length;
+  const alone = new Map();  // sides met once so far: the quad
+  const pairs = [];
+  for (let q = 0; q < areas.length; ++q)
+    for (let side = 0; side < 4; ++side) {
+      const [a, b] = [quads[4 * q + side], quads[4 * q + ((side + 1) % 4)]];
+      const key = Math.min(a, b) * count + Math.max(a, b);
+      const other = alone.get(key);
+      if (other === undefined) { alone.set(key, q); continue; }
+      alone.delete(key);
+      if (sizes[q] < least || sizes[other] < least) continue;
+      const cosine = areas[q].reduce((sum, value, axis) => sum + value * areas[other][axis], 0) / (sizes[q] * sizes[other]);
+      if (cosine < SMOOTH) pairs.push(a, b);
+    }
+  for (const key of alone.keys()) pairs.push(Math.floor(key / count), key % count);
   return Int32Array.from(pairs);
 }
 

@@ -1,5 +1,5 @@
 // What a Scene shows of a Body: keeps the two in step with a state of plain values.
-import { boxEdges, edges, visible } from "./mesh.js";
+import { boxEdges, creases, edges, visible } from "./mesh.js";
 import { Scene } from "./scene.js";
 
 export class Picture {
@@ -11,34 +11,46 @@ export class Picture {
   constructor(body, container, interactive) {
     this.body = body;
     this.scene = new Scene(container, interactive);
-    const { points, quads } = body.mesh;
-    this.outline = body.linesPossible ? { points, pairs: edges(points, quads, true) } : boxEdges(body.bounds);
+    this.outlines = {};
     this.shown = {};
   }
 
+  // The edges of the undeformed body.
+  outline(surface) {
+    const { body } = this;
+    const points = body.points(surface);
+    this.outlines[surface] ??= body.linesPossible ? { points, pairs: lines(surface, points, body.mesh.quads, true) } : boxEdges(body.bounds);
+    return this.outlines[surface];
+  }
+
   /**
-   * Draws a state: {sample, field, choice, limits: {min, max}|null, scale, cut, lines: "edges"|"cells"|"none", outline}.
+   * Draws a state: {surface: "true"|"cells", sample, field, choice, limits: {min, max}|null, scale, cut, lines:
+   * "edges"|"cells"|"none", outline}.
    * Only what differs from the last state is rebuilt.
    */
   draw(state) {
     const { body, scene } = this;
     const differs = (...keys) => keys.some((key) => this.shown[key] !== state[key]);
-    if (differs("cut", "lines")) {
+    const { surface } = state;
+    if (differs("surface", "cut", "lines")) {
       this.part = visible(body.mesh, state.cut);
       const wanted = body.linesPossible && state.lines !== "none";
-      const pairs = wanted ? edges(body.mesh.points, this.part.quads, state.lines === "edges") : null;
-      scene.setBody(body.positions(state.sample, state.scale), this.part.quads, pairs);
+      const pairs = wanted ? lines(surface, body.points(surface), this.part.quads, state.lines === "edges") : null;
+      scene.setBody(body.positions(state.sample, state.scale, surface), this.part.quads, pairs);
     } else if (differs("sample", "scale")) {
-      scene.setPositions(body.positions(state.sample, state.scale));
+      scene.setPositions(body.positions(state.sample, state.scale, surface));
     }
-    if (differs("outline")) scene.setOutline(state.outline ? this.outline.points : null, this.outline.pairs);
-    if (differs("cut", "sample", "field", "choice", "limits")) this.colour(state);
+    if (differs("surface", "outline")) {
+      const { points, pairs } = this.outline(surface);
+      scene.setOutline(state.outline ? points : null, pairs);
+    }
+    if (differs("surface", "cut", "sample", "field", "choice", "limits")) this.colour(state);
     this.shown = { ...state };
     scene.render();
   }
 
-  colour({ field, choice, sample, limits }) {
-    const values = this.body.values(field, choice, sample);
+  colour({ surface, field, choice, sample, limits }) {
+    const values = this.body.values(field, choice, sample, surface);
     const perQuad = this.body.field(field, sample).on === "cells";
     const shown = perQuad ? Float32Array.from(this.part.quadCell, (cell) => values[cell]) : values;
     this.scene.setColours(shown, perQuad, { ...this.body.map(field, choice), ...limits });
@@ -48,14 +60,19 @@ export class Picture {
   probe(x, y) {
     const hit = this.scene.pick(x, y);
     if (!hit) return null;
-    const { sample, field, choice, scale } = this.shown;
+    const { surface, sample, field, choice, scale } = this.shown;
     const { quads, quadCell } = this.part;
     const corners = [0, 1, 2, 3].map((i) => quads[4 * hit.quad + i]);
-    const position = this.body.positions(sample, scale);
+    const position = this.body.positions(sample, scale, surface);
     const distance = (point) => Math.hypot(...hit.position.map((value, axis) => value - position[3 * point + axis]));
     const nearest = corners.reduce((best, point) => (distance(point) < distance(best) ? point : best));
     const perQuad = this.body.field(field, sample).on === "cells";
-    const values = this.body.values(field, choice, sample);
-    return { value: values[perQuad ? quadCell[hit.quad] : nearest], place: [...this.body.mesh.points.slice(3 * nearest, 3 * nearest + 3)] };
+    const values = this.body.values(field, choice, sample, surface);
+    return { value: values[perQuad ? quadCell[hit.quad] : nearest], place: [...this.body.points(surface).slice(3 * nearest, 3 * nearest + 3)] };
   }
+}
+
+// Lines upon a surface: its edges, or those of all quads.
+function lines(surface, points, quads, edgesOnly) {
+  return surface === "true" && edgesOnly ? creases(points, quads) : edges(points, quads, edgesOnly);
 }

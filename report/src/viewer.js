@@ -21,7 +21,7 @@ export function viewer(block) {
   const body = new Body(block);
   const names = body.fieldNames();
   const first = names.includes("displacement") ? "displacement" : names[0];
-  const state = { sample: body.swings ? 0 : body.samples.length - 1, field: first, choice: body.choices(first)[0], limits: null,
+  const state = { surface: body.surfaces[0], sample: body.swings ? 0 : body.samples.length - 1, field: first, choice: body.choices(first)[0], limits: null,
     scale: body.startScale(), cut: null, lines: body.smooth ? "none" : "edges", outline: body.hasDisplacement() };
 
   const view = element("div", { class: "view", id: "view", tabindex: "0", role: "application",
@@ -189,8 +189,11 @@ function viewControls(body, change, picture) {
   const button = (text, click, title) => element("button", { type: "button", text, title, on: { click } });
   const lines = select("Lines", [["edges", "edges of the body"], ["cells", "all cells"], ["none", "none"]], { id: "lines" });
   lines.row.hidden = !body.linesPossible || body.smooth;
+  const surface = select("Surface", [["true", "as it is"], ["cells", "cells"]], { id: "surface" });
+  surface.row.hidden = body.surfaces.length < 2;
+  surface.list.addEventListener("change", () => change({ surface: surface.list.value }));
   lines.list.addEventListener("change", () => change({ lines: lines.list.value }));
-  return element("fieldset", {}, element("legend", { text: "View" }), lines.row,
+  return element("fieldset", {}, element("legend", { text: "View" }), surface.row, lines.row,
     element("div", { class: "inline" }, ...["x", "y", "z", "oblique"].map((name) => button(name, look(name), `Look along ${name}`)),
       button("save PNG", save)),
     element("p", { class: "hint", text: "Drag to turn, shift and drag to move, click a spot for its value. The wheel zooms once the picture has been clicked." }));

@@ -7,7 +7,7 @@ import { mapFor } from "../src/colours.js";
 import { decode } from "../src/data.js";
 import { principal, scalars } from "../src/field.js";
 import { number, prefixed, quantity, subscripts, unitText } from "../src/format.js";
-import { edges, visible } from "../src/mesh.js";
+import { creases, edges, replaced, visible } from "../src/mesh.js";
 import { CELLS, makeSample, SPACING } from "../scripts/sample.mjs";
 
 test("arrays survive encoding, deflated or not, to the bit", () => {
@@ -85,6 +85,24 @@ test("a box of cells has the creases of a box and every edge of its faces once",
   assert.equal(edges(points, quads, true).length / 2, 4 * (nx + ny + nz));
   assert.equal(quads.length / 4, 2 * (nx * ny + ny * nz + nz * nx));
   assert.equal(edges(points, quads, false).length / 2, 2 * (quads.length / 4));
+});
+
+test("a surface that lies any way has creases where its quads meet at an angle", () => {
+  const { points, quads } = sampleMesh();
+  const [nx, ny, nz] = CELLS;
+  assert.equal(creases(points, quads).length / 2, 4 * (nx + ny + nz));
+  // Two quads that meet at 30 degrees are one smooth surface, at 60 degrees two; the border of both is drawn.
+  for (const [angle, inner] of [[30, 0], [60, 1]]) {
+    const [c, s] = [Math.cos((angle * Math.PI) / 180), Math.sin((angle * Math.PI) / 180)];
+    const folded = Float32Array.of(-1, 0, 0, -1, 1, 0, 0, 1, 0, 0, 0, 0, c, 0, s, c, 1, s);
+    assert.equal(creases(folded, Int32Array.of(0, 3, 2, 1, 3, 4, 5, 2)).length / 2, 6 + inner);
+  }
+});
+
+test("points of the true surface replace those of the cells, and so do their values", () => {
+  const values = Float32Array.of(1, 2, 3, 4, 5, 6);
+  assert.deepEqual([...replaced(values, 2, Int32Array.of(2, 0), Float32Array.of(7, 8, 9, 10))], [9, 10, 3, 4, 7, 8]);
+  assert.deepEqual([...values], [1, 2, 3, 4, 5, 6]);
 });
 
 test("both parts of a cut body are closed, and share the cut", () => {

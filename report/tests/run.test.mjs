@@ -171,3 +171,25 @@ test("a static solve shows its residuals down to the tolerance", options, async 
   assert.equal(await page.locator("#history").count(), 0);
   assert.deepEqual(errors, []);
 });
+
+test("a body with cut cells shows its true surface, and its cells on demand", options, async () => {
+  const out = join(folder, "tube");
+  execFileSync(program, ["run", new URL("../../examples/40_pressurised_tube/case.toml", import.meta.url).pathname, "--out", out, "--quiet",
+    "--set", "output.report=true", "--set", "lattice.spacing=0.01"], { stdio: "inherit" });
+  await page.goto(pathToFileURL(join(out, "report.html")).href);
+  const picture = async () => (await page.locator("#view canvas").screenshot()).toString("base64");
+  assert.equal(await page.inputValue("#surface"), "true");
+  const smooth = await picture();
+  await page.selectOption("#surface", "cells");
+  const cells = await picture();
+  assert.notEqual(cells, smooth);
+  // Lines of cells and a cut go with both.
+  await page.selectOption("#lines", "cells");
+  await page.selectOption("#cut", "x");
+  await page.selectOption("#surface", "true");
+  assert.notEqual(await picture(), smooth);
+  await page.selectOption("#lines", "edges");
+  await page.selectOption("#cut", "");
+  assert.equal(await picture(), smooth);
+  assert.deepEqual(errors, []);
+});

@@ -159,9 +159,24 @@ class SolidCells {
   std::unordered_map<std::int64_t, bool> known_;
 };
 
+// Centroid of a polygon, and its area times its normal: by the triangles about the first corner.
+std::pair<Vec3, Vec3> middle_of(const Polygon& part) {
+  Vec3 area{}, moment{};
+  double weight = 0;
+  for (std::size_t v = 2; v < part.size(); ++v) {
+    const Vec3 triangle = 0.5 * cross(part[v - 1] - part[0], part[v] - part[0]);
+    const double size = norm(triangle);
+    area = area + triangle;
+    weight += size;
+    moment = moment + (size / 3) * (part[0] + part[v - 1] + part[v]);
+  }
+  return {weight > 0 ? (1 / weight) * moment : part[0], area};
+}
+
 }  // namespace
 
-std::vector<SurfacePiece> surface_of(const Definition& definition, const lattice::Grid& grid, int region) {
+std::vector<SurfacePiece> surface_of(const Definition& definition, const lattice::Grid& grid, int region,
+                                     SurfaceEdges edges) {
   const CutBody body(definition, grid);
   SolidCells cells(definition, grid);
   const auto position = [&](const Vec3& place) { return grid.origin + grid.d * place; };
@@ -174,38 +189,54 @@ std::vector<SurfacePiece> surface_of(const Definition& definition, const lattice
     }
     return body.material_at(position(place), cell, region, holds) != 0;
   };
+  // On which sides of a place of the surface the body is.
+  const auto sides = [&](const Vec3& place, const Vec3& normal) {
+    constexpr double beside = 1e-3;
+    return std::pair(solid_beside(place - beside * normal, true), solid_beside(place + beside * normal, false));
+  };
 
   std::vector<SurfacePiece> pieces;
+  const auto add = [&](const Int3& cell, const Polygon& part) {
+    const auto [place, area] = middle_of(part);
+    if (norm(area) < 1e-14) return;
+    const auto [in, out] = sides(place, (1 / norm(area)) * area);
+    if (in == out) return;
+    const auto home = cells.closest(cell, place);
+    if (!home && edges == SurfaceEdges::fine) return;
+    if (!home) {
+      const Vec3 at = position(place);
+      throw InputError(
+          fmt::format("the surface near ({:.6g}, {:.6g}, {:.6g}) m bounds a part of the body so thin "
+                      "that no cell there is solid; use a smaller spacing",
+                      at[0], at[1], at[2]));
+    }
+    Polygon corners;
+    for (const Vec3& x : part) corners.push_back(position(x));
+    pieces.push_back({*home, position(place), (in ? 1 : -1) * grid.d * grid.d * area, std::move(corners)});
+  };
+  // Whether another surface ends this one within a part: its corners have the body on other sides than its middle.
+  const auto ends_within = [&](const Polygon& part) {
+    const auto [place, area] = middle_of(part);
+    if (norm(area) < 1e-14) return false;
+    const Vec3 middle = place, normal = (1 / norm(area)) * area;
+    const auto there = sides(middle, normal);
+    return std::ranges::any_of(part, [&](const Vec3& x) { return sides(x + 0.01 * (middle - x), normal) != there; });
+  };
+  constexpr std::int64_t fine = 8;
   for (const Polygon& polygon : polygons_of(definition.regions[static_cast<std::size_t>(region)], grid)) {
     Polygon placed;
     for (const Vec3& x : polygon) placed.push_back((1 / grid.d) * (x - grid.origin));
     for_each_part(placed, 0, {0, 0, 0}, grid.cells, {}, [&](const Int3& cell, const Polygon& part) {
-      // Area and centroid by the triangles about the first corner.
-      Vec3 area{}, moment{};
-      double weight = 0;
-      for (std::size_t v = 2; v < part.size(); ++v) {
-        const Vec3 triangle = 0.5 * cross(part[v - 1] - part[0], part[v] - part[0]);
-        const double size = norm(triangle);
-        area = area + triangle;
-        weight += size;
-        moment = moment + (size / 3) * (part[0] + part[v - 1] + part[v]);
-      }
-      if (weight < 1e-14) return;
-      const Vec3 place = (1 / weight) * moment, normal = (1 / norm(area)) * area;
-      constexpr double beside = 1e-3;
-      const bool in = solid_beside(place - beside * normal, true), out = solid_beside(place + beside * normal, false);
-      if (in == out) return;
-      const auto home = cells.closest(cell, place);
-      if (!home) {
-        const Vec3 at = position(place);
-        throw InputError(
-            fmt::format("the surface near ({:.6g}, {:.6g}, {:.6g}) m bounds a part of the body so thin "
-                        "that no cell there is solid; use a smaller spacing",
-                        at[0], at[1], at[2]));
-      }
-      Polygon corners;
-      for (const Vec3& x : part) corners.push_back(position(x));
-      pieces.push_back({*home, position(place), (in ? 1 : -1) * grid.d * grid.d * area, std::move(corners)});
+      if (edges == SurfaceEdges::pieces || !ends_within(part)) return add(cell, part);
+      Vec3 corner;
+      for (std::size_t a = 0; a < 3; ++a) corner[a] = static_cast<double>(cell[a]);
+      Polygon large;
+      for (const Vec3& x : part) large.push_back(fine * (x - corner));
+      for_each_part(large, 0, {0, 0, 0}, {fine, fine, fine}, {}, [&](const Int3&, const Polygon& piece) {
+        Polygon small;
+        for (const Vec3& x : piece) small.push_back(corner + (1.0 / fine) * x);
+        add(cell, small);
+      });
     });
   }
   return pieces;

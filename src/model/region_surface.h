@@ -17,9 +17,13 @@ struct SurfacePiece {
   Polygon corners{};  ///< in order [m]
 };
 
+/// Where another surface ends one: between two pieces, or for pictures within a sixteenth of a cell.
+enum class SurfaceEdges { pieces, fine };
+
 /// The part of a region's surface with the body on one side only, in a fixed order, the same on every rank: triangles
 /// with their corners on the true surface, cut along the planes between cells. Errors: InputError with the place of a
-/// piece that is far from any solid cell.
-std::vector<SurfacePiece> surface_of(const Definition& definition, const lattice::Grid& grid, int region);
+/// piece that is far from any solid cell; with fine edges such pieces are left out.
+std::vector<SurfacePiece> surface_of(const Definition& definition, const lattice::Grid& grid, int region,
+                                     SurfaceEdges edges = SurfaceEdges::pieces);
 
 }  // namespace koshi::model

@@ -13,7 +13,9 @@
 #include "io/field_reader.h"
 #include "io/report_block.h"
 #include "koshi/error.h"
+#include "model/regions.h"
 #include "report/surface.h"
+#include "report/true_surface.h"
 
 namespace koshi::report {
 namespace {
@@ -119,6 +121,33 @@ void keep_common(const io::FieldReader& reader, std::vector<io::FieldInfo>& fiel
   });
 }
 
+// Where the points lie that the true surface has elsewhere than that of the cells.
+json true_surface_block(std::span<const MovedPoint> moved) {
+  std::vector<std::int32_t> points;
+  std::vector<float> at;
+  for (const MovedPoint& point : moved) {
+    points.push_back(point.point);
+    for (const double x : point.at) at.push_back(static_cast<float>(x));
+  }
+  return {{"point", io::encoded(std::span<const std::int32_t>(points))},
+          {"at", io::encoded(std::span<const float>(at))}};
+}
+
+// Values of a field on points there, by the shape functions of the cells behind them.
+std::vector<float> values_at(const io::FieldReader& reader, const io::FieldInfo& field,
+                             std::span<const MovedPoint> moved) {
+  std::vector<std::int64_t> nodes;
+  for (const MovedPoint& point : moved) nodes.insert(nodes.end(), point.nodes.begin(), point.nodes.end());
+  const std::vector<float> corners = reader.gather(field, nodes);
+  const std::size_t components = field.components.size();
+  std::vector<float> values(components * moved.size());
+  for (std::size_t p = 0; p < moved.size(); ++p)
+    for (std::size_t corner = 0; corner < 8; ++corner)
+      for (std::size_t c = 0; c < components; ++c)
+        values[components * p + c] += moved[p].weights[corner] * corners[components * (8 * p + corner) + c];
+  return values;
+}
+
 std::string note(const Surface& surface, std::size_t shown, std::size_t samples,
                  const std::set<std::string>& left_out) {
   std::vector<std::string> parts;
@@ -137,7 +166,7 @@ std::string note(const Surface& surface, std::size_t shown, std::size_t samples,
 }  // namespace
 
 nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::span<const std::string> materials,
-                                  const ReportLimits& limits) {
+                                  const model::Definition* regions, const ReportLimits& limits) {
   const io::FieldReader first(samples.front().path);
   std::vector<io::FieldInfo> fields = first.fields();
 
@@ -160,7 +189,11 @@ nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::sp
                        {"point_index", io::encoded(narrowed(surface.points))},
                        {"cell_index", io::encoded(narrowed(surface.cells))}};
 
-  const double sample_bytes = bytes_of(fields, surface.points.size(), surface.cells.size());
+  std::vector<MovedPoint> moved;
+  if (regions) moved = true_surface(*regions, model::make_grid(*regions), surface);
+  if (!moved.empty()) mesh["true_surface"] = true_surface_block(moved);
+
+  const double sample_bytes = bytes_of(fields, surface.points.size() + moved.size(), surface.cells.size());
   const auto chosen = chosen_samples(samples.size(), limits.sample_bytes / std::max(sample_bytes, 1.0));
   mesh["samples"] = json::array();
   std::set<std::string> left_out;
@@ -174,9 +207,12 @@ nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::sp
     keep_common(reader, fields, mesh["samples"], left_out);
     json block{{"time", samples[s].time}, {"fields", json::object()}};
     if (!samples[s].label.empty()) block["label"] = samples[s].label;
-    for (const io::FieldInfo& field : fields)
-      block["fields"][field.name] =
+    for (const io::FieldInfo& field : fields) {
+      json& values = block["fields"][field.name] =
           field_block(field, reader.gather(field, field.on_cells ? surface.cells : surface.points));
+      if (!moved.empty() && !field.on_cells)
+        values["on_true_surface"] = io::encoded(std::span<const float>(values_at(reader, field, moved)));
+    }
     if (json material = material_block(reader, surface.cells, materials); !material.is_null())
       block["fields"]["material"] = std::move(material);
     mesh["samples"].push_back(std::move(block));

@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include "koshi/definition.h"
+
 namespace koshi::report {
 
 /// A sample of fields on disk and what the page calls it.
@@ -26,8 +28,9 @@ struct ReportLimits {
 
 /// Samples of one body (at least one), in the order they are to be shown, with the fields that all of them have.
 /// `materials`: names of the materials 1, 2, ...; they become a field where the body has several.
-/// Throws InputError when a sample cannot be read or belongs to another body.
+/// `regions`: of a body that its regions cut, the definition with the contents of its files; the mesh then has the true
+/// surface as well. Throws InputError when a sample cannot be read or belongs to another body.
 nlohmann::ordered_json mesh_block(std::span<const ReportSample> samples, std::span<const std::string> materials,
-                                  const ReportLimits& limits = {});
+                                  const model::Definition* regions = nullptr, const ReportLimits& limits = {});
 
 }  // namespace koshi::report

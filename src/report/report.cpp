@@ -100,6 +100,25 @@ void add_summary(json& data, const model::Definition& definition, const json& su
     data["convergence"] = {{"residuals", residuals}, {"tolerance", definition.analysis.tolerance}};
 }
 
+// The body, with its true surface where regions cut its cells and their files are still there.
+json body_block(model::Definition definition, std::span<const ReportSample> samples,
+                std::span<const std::string> materials) {
+  if (!definition.cuts()) return mesh_block(samples, materials);
+  // Triangles are read of surfaces that have names.
+  for (std::size_t r = 0; r < definition.regions.size(); ++r)
+    if (definition.regions[r].name.empty()) definition.regions[r].name = fmt::format("region {} without a name", r + 1);
+  std::string missing;
+  try {
+    definition = io::load_files(std::move(definition));
+  } catch (const InputError& error) {
+    missing = fmt::format("The surface is that of the cells, because {}.", error.message());
+  }
+  json mesh = mesh_block(samples, materials, missing.empty() ? &definition : nullptr);
+  if (!missing.empty())
+    mesh["note"] = mesh.contains("note") ? fmt::format("{} {}", missing, mesh["note"].get<std::string>()) : missing;
+  return mesh;
+}
+
 // Names with characters that a page would not show, or would take for directions, are shown escaped.
 json shown(json data) {
   if (data.is_string()) return escaped(data.get_ref<const std::string&>(), true);
@@ -157,7 +176,7 @@ nlohmann::ordered_json report_data(const fs::path& directory) {
   std::vector<std::string> materials;
   for (const model::MaterialDefinition& material : definition.materials) materials.push_back(material.name);
   if (!samples.empty()) {
-    data["mesh"] = mesh_block(samples, materials);
+    data["mesh"] = body_block(definition, samples, materials);
     if (modal) data["mesh"]["swings"] = true;
   }
   return data;

@@ -267,7 +267,7 @@ TEST_F(Results, LargeBodiesAreThinnedWithANote) {
                                           {directory / "fields/sample_000001.vti", 1, "loaded"},
                                           {directory / "fields/sample_000001.vti", 2, ""}};
   const std::vector<std::string> materials{"soft", "hard"};
-  const json mesh = mesh_block(samples, materials, {30, 1e9, 1e9});
+  const json mesh = mesh_block(samples, materials, nullptr, {30, 1e9, 1e9});
   EXPECT_THAT(mesh.at("note"), HasSubstr("The surface has 54 points; it is thinned to "));
   EXPECT_FALSE(mesh.contains("lattice"));
   // Blocks of 2 x 2 x 2 cells: 1 x 2 x 2 of them, 18 corners, all on the surface.
@@ -276,12 +276,59 @@ TEST_F(Results, LargeBodiesAreThinnedWithANote) {
   EXPECT_EQ(mesh.at("samples")[1].at("label"), "loaded");
 
   // Values of 54 surface points and 24 cells: (3 x 54 + 6 x 24) x 4 bytes a sample; two of three samples fit.
-  const json fewer = mesh_block(samples, materials, {1000, 0, 2.5 * 4 * (3 * 54 + 6 * 24)});
+  const json fewer = mesh_block(samples, materials, nullptr, {1000, 0, 2.5 * 4 * (3 * 54 + 6 * 24)});
   EXPECT_EQ(fewer.at("note"),
             "The inside is too large for this page: a cut shows the body hollow. 2 of 3 samples are shown.");
   ASSERT_EQ(fewer.at("samples").size(), 2U);
   EXPECT_EQ(fewer.at("samples")[0].at("time"), 0.5);
   EXPECT_EQ(fewer.at("samples")[1].at("time"), 2);
+}
+
+TEST_F(Results, SurfaceOfCutCellsWithoutItsFileIsThatOfTheCells) {
+  std::string text = case_text;
+  text.replace(text.find("[material."), 0, "surface = \"cut\"\n");
+  const std::size_t shape = text.find("shape = \"box\""), material = text.find("material = \"hard\"");
+  text.replace(shape, material - shape, "shape = \"stl\"\nfile = \"lost.stl\"\n");
+  io::replace_file(directory / "resolved.toml", text);
+  const json mesh = report_data(directory.path()).at("mesh");
+  EXPECT_FALSE(mesh.contains("true_surface"));
+  EXPECT_THAT(mesh.at("note"), HasSubstr("The surface is that of the cells, because the file "));
+  EXPECT_THAT(mesh.at("note"), HasSubstr("lost.stl"));
+}
+
+TEST_F(Results, SurfaceOfCutCellsHasValuesOfItsOwn) {
+  // The upper part of the body ends at y = 1.7, between the nodes at 1.5 and 2: 4/10 of the way.
+  std::string text = case_text;
+  text.replace(text.find("[material."), 0, "surface = \"cut\"\n");
+  const std::string end =
+      "[[region]]\nshape = \"half-space\"\npoint = [0, 1.7, 0]\nnormal = [0, -1, 0]\nmaterial = \"void\"\n";
+  text.replace(text.find("[[boundary]]"), 0, end);
+  io::replace_file(directory / "resolved.toml", text);
+  const json mesh = report_data(directory.path()).at("mesh");
+  // The 3 x 4 nodes at y = 2 move.
+  const auto at = decoded<float>(mesh.at("true_surface").at("at"), 36);
+  const auto points = decoded<std::int32_t>(mesh.at("true_surface").at("point"), 12);
+  const auto nodes = decoded<std::int32_t>(mesh.at("lattice").at("point_index"), 60);
+  ASSERT_EQ(at.size(), 36U);
+  int checked = 0;
+  for (const json& sample : mesh.at("samples")) {
+    const auto u = decoded<float>(sample.at("fields").at("displacement").at("on_true_surface"), 36);
+    ASSERT_EQ(u.size(), 36U);
+    EXPECT_FALSE(sample.at("fields").at("stress").contains("on_true_surface"));
+    for (std::size_t p = 0; p < 12; ++p) {
+      const std::int32_t node = nodes[static_cast<std::size_t>(points[p])];
+      const Int3 upper{node % 3, node / 3 % 5, node / 15}, lower{upper[0], 3, upper[2]};
+      EXPECT_EQ(upper[1], 4);
+      EXPECT_NEAR(at[3 * p + 1], 1.7, 1e-6);
+      for (int c = 0; c < 3; ++c, ++checked) {
+        const double below = displacement(c, lower, sample.at("time")),
+                     above = displacement(c, upper, sample.at("time"));
+        EXPECT_NEAR(u[3 * p + static_cast<std::size_t>(c)], 0.6 * below + 0.4 * above,
+                    1e-6 * (std::abs(below) + std::abs(above)));
+      }
+    }
+  }
+  EXPECT_EQ(checked, 2 * 36);
 }
 
 TEST_F(Results, PageHoldsTheDataOnce) {
