@@ -357,6 +357,15 @@ def test_damage_that_is_wrong_raises(brittle, case):
         koshi.Simulation(brittle).set_damage(np.where(np.arange(6) == 5, 0.1, np.zeros((2, 2, 6))))
 
 
+def test_bonds_have_no_damage_to_set(brittle):
+    brittle.lattice = koshi.Lattice("10 mm", calibration="isotropic")
+    brittle.material["rock"] = koshi.Material(30e9, 0, 2400, fracture={"law": "bonds", "critical_stretch": 1e-4})
+    simulation = koshi.Simulation(brittle)
+    assert simulation.damage.shape == (2, 2, 6) and not simulation.damage.any()
+    with pytest.raises(koshi.InputError, match="a cell has no damage of its own, only bonds that break"):
+        simulation.set_damage(np.zeros((2, 2, 6)))
+
+
 def test_strength_from_an_array(brittle):
     # Pulled to 1.5 MPa: a layer of a third of the strength cracks, the others do not.
     brittle.body.strength = np.ones((2, 2, 6))

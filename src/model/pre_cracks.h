@@ -5,10 +5,10 @@
 
 namespace koshi::model {
 
-/// Cracks the cells that the definition's cracks cut: a whole plane of a normal cuts d (|n1| + |n2| + |n3|) of cells,
-/// and these part the nodes on its two sides. A cell that has cracked through stays as it is. Errors (collective):
-/// InputError at a crack that cuts no solid cell, or one whose material cannot crack.
-void add_cracks(const Model& model, lattice::Field<double>& crack);
+/// Cracks in State::crack the cells that the definition's cracks cut: a whole plane of a normal cuts d (|n1| + |n2| +
+/// |n3|) of cells, and these part the nodes on its two sides. A cell that has cracked through stays as it is. Errors
+/// (collective): InputError at a crack that cuts no solid cell, or one whose material cannot crack.
+void add_cracks(const Model& model, lattice::Field<double>& field);
 
 /// Where bonds break: breaks in the first component of State::bonds those that cross the definition's cracks. Errors
 /// (collective): InputError at a crack that crosses no bond, or one that a material holds which cannot crack.
