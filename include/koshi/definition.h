@@ -177,8 +177,10 @@ struct SelectionDefinition {
 /// Factor over time, piecewise linear, constant outside; pairs {t [s], factor}, t ascending; empty: 1.
 using History = std::vector<std::array<double, 2>>;
 
-/// [[boundary]]: prescribed motion. Components 0..5 = x, y, z, rx, ry, rz.
+/// [[boundary]]: prescribed motion, or a support by a surface. Components 0..5 = x, y, z, rx, ry, rz.
 struct BoundaryDefinition {
+  /// How a surface holds the body: along its normal, so that it slides upon it, or in every direction.
+  enum class Support { roller, bonded };
   std::string name;                                     ///< for messages and --set
   Selection selection;                                  ///< of nodes
   std::array<bool, 6> fix{};                            ///< held at zero
@@ -190,6 +192,8 @@ struct BoundaryDefinition {
   std::optional<Vec3> center;  ///< of the twist [m]; unset: mean position of the selected nodes
   double ramp = 0;             ///< [s], displacement and twist rise linearly from 0; velocity too
   History history;             ///< factor on displacement, velocity and twist
+  /// Of the surfaces that the selection names, by springs at their places; unset: none.
+  std::optional<Support> support{};
   bool operator==(const BoundaryDefinition&) const = default;
 };
 

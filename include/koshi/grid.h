@@ -64,6 +64,11 @@ class Layout {
     return lead + i + pitch_ * (j + 1) + plane_ * (k + 1);
   }
   std::int64_t index(const Int3& node) const { return index(node[0], node[1], node[2]); }  ///< the same
+  /// Local indices of the node at a place in memory.
+  Int3 place(std::int64_t index) const {
+    const std::int64_t from = index - this->index(-1, -1, -1);
+    return {from % plane_ % pitch_ - 1, from % plane_ / pitch_ - 1, from / plane_ - 1};
+  }
   /// Distance in memory between a node and its neighbour in direction s.
   std::int64_t offset(const std::array<int, 3>& s) const { return s[0] + pitch_ * s[1] + plane_ * s[2]; }
 

@@ -1,6 +1,7 @@
 // The body as springs: which cells are solid, which bonds exist and how stiff they are. Frozen after construction.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -8,6 +9,7 @@
 
 #include "koshi/field.h"
 #include "koshi/springs.h"
+#include "koshi/vector3.h"
 
 namespace koshi::lattice {
 class Halo;
@@ -15,6 +17,17 @@ struct Partition;
 }  // namespace koshi::lattice
 
 namespace koshi::model {
+
+/// A spring between a place in a cell and the ground: it resists e = direction . sum of weights u with the energy
+/// stiffness e^2/2.
+struct GroundSpring {
+  std::int64_t cell = 0;            ///< index of its lowest corner
+  std::array<double, 8> weights{};  ///< shape functions of the corners at the place
+  Vec3 direction{};                 ///< of length 1
+  double stiffness = 0;             ///< [N/m]
+  Vec3 surface{};                   ///< place of the surface that it stands for [m]
+  int region = 0;                   ///< whose surface that is, index into Definition::regions
+};
 
 /// Cells and springs on one rank's nodes and ghosts. Fields of cells have one component, with the cell's value at the
 /// index of its lowest corner; they are known for the cells that touch an owned node.
@@ -44,6 +57,7 @@ struct SpringLattice {
   /// 2 slot + 1: kt [N/m].
   lattice::Field<double> bond;
   lattice::Field<std::uint8_t> bond_cells;  ///< the same: solid cells around forward bonds, component slot
+  std::vector<GroundSpring> ground;         ///< of cells that touch an owned node, in one order on any ranks
 
   /// Unknowns per node: three displacements, and three rotations with rotational kinematics.
   int components() const { return kinematics == material::Kinematics::rotational ? 6 : 3; }

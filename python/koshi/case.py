@@ -6,10 +6,9 @@ holds; `koshi schema` lists all keys with their defaults. What is wrong raises `
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import tomllib
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, is_dataclass, replace
 from typing import Literal, Mapping, Sequence, Union
 
 import numpy as np
@@ -60,8 +59,7 @@ class Body:
     strength: str | os.PathLike | np.ndarray | None = None
     """factor > 0 on the strength of each cell: a file, or an array (nz, ny, nx); default 1"""
     grain_boundary: Mapping[str, str | float | os.PathLike | np.ndarray] | None = None
-    """what becomes of cells with a face neighbour of another grain: labels (a file, or an array (nz, ny, nx) of whole
-    numbers; default: the materials), and either material (a name) or strength (a factor > 0)"""
+    """cells with a face neighbour of another grain: labels (file or array; default: materials), material or strength"""
     origin: Vector | None = None
     """lower corner [m], default (0, 0, 0)"""
     periodic: Sequence[str] | Sequence[bool] | None = None
@@ -200,6 +198,8 @@ class Boundary:
     """time over which the motion rises from zero [s], default 0"""
     history: Sequence[tuple[Quantity, float]] | None = None
     """factor on the motion: pairs (time [s], factor)"""
+    support: Literal["roller", "bonded"] | None = None
+    """by the surface at its true place: along its normal, or in every direction"""
 
 
 @dataclass
@@ -388,8 +388,8 @@ def load(file: str | os.PathLike, overrides: Sequence[str] = ()) -> Case:
 
 def _plain(value):
     """Dataclasses, arrays, paths and tuples as dict, list, text and numbers; what is None or empty is left out."""
-    if dataclasses.is_dataclass(value):
-        value = {f.name: getattr(value, f.name) for f in dataclasses.fields(value)}
+    if is_dataclass(value):
+        value = {f.name: getattr(value, f.name) for f in fields(value)}
     if isinstance(value, Mapping):
         return {str(key): _plain(v) for key, v in value.items() if v is not None and not _is_empty(v)}
     if isinstance(value, (np.ndarray, np.generic)):
@@ -425,7 +425,7 @@ def _definition(case: Case | str | os.PathLike, overrides: Sequence[str] = ()) -
     if isinstance(labels, np.ndarray):
         _check_array("body.grain_boundary.labels", labels, "biu", "whole numbers")
         named["grain_boundary"] = {**(grains or {}), "labels": "array.npy"}
-    case = dataclasses.replace(case, body=dataclasses.replace(case.body, **named))
+    case = replace(case, body=replace(case.body, **named))
     definition = _koshi.read_values(_plain(case), list(overrides))
     if "image" in named:
         definition.set_cells(np.ascontiguousarray(image, dtype=np.int64))

@@ -151,7 +151,8 @@ void Simulation::check_support() const {
   // Nothing carries a periodic body away that its mean strain alone loads.
   const model::Definition& definition = model_->definition;
   if (definition.macroscopic && definition.loads.empty()) return;
-  if (model_->motion_count == 0)
+  const bool held = model_->communicator.any(!model_->lattice.ground.empty());
+  if (model_->motion_count == 0 && !held)
     throw InputError(
         definition.places.find("analysis.type"),
         "a quasi-static run needs a support, but nothing is fixed or prescribed; add a [[boundary]], or use type = "

@@ -66,9 +66,9 @@ class PathWork {
 
 }  // namespace
 
-// Work of the supports' forces on the motions of their nodes.
+// Work of the supports' forces on the motions of their nodes; the ground does not move.
 double Simulation::work_of_supports() {
-  const lattice::Field<double> reactions = meter_->reactions(*state_);
+  const lattice::Field<double> reactions = meter_->reactions(*state_, false);
   ExactSum sum;
   for (const model::PrescribedMotion& motion : model_->motions)
     sum += reactions.component(motion.component)[motion.node] *

@@ -23,7 +23,8 @@ ForceKernel::ForceKernel(const SpringLattice& lattice)
     : lattice_(lattice),
       components_(lattice.components()),
       sweep_(components_, lattice.layout.owned()[0], lattice.layout.owned()[1], cells_below(lattice),
-             0.5 * lattice.grid.d, cache) {
+             0.5 * lattice.grid.d, cache),
+      ground_(lattice) {
   if (lattice.sharing == material::Sharing::plain) {
     plain_ = std::make_unique<PlainForces>(lattice);
     plain_row_.assign(static_cast<std::size_t>(components_),
@@ -56,6 +57,7 @@ const double* ForceKernel::constants(std::int64_t i, std::int64_t j, std::int64_
 }
 
 void ForceKernel::sweep(const lattice::Field<double>& u, const Rows& rows, const Callbacks& callbacks) {
+  ground_.update(u, rows);
   if (plain_) return plain_sweep(u, rows, callbacks);
   const lattice::Layout& layout = lattice_.layout;
   sweep_.run(
@@ -65,7 +67,10 @@ void ForceKernel::sweep(const lattice::Field<double>& u, const Rows& rows, const
         const std::int64_t n = layout.index(i, j, k);
         callbacks.call_fetch(callbacks.fetch, n, n + nodes);
       },
-      [&](auto j, auto k, double* const* force) { callbacks.call_use(callbacks.use, j, k, force); },
+      [&](auto j, auto k, double* const* force) {
+        ground_.add(j, k, force);
+        callbacks.call_use(callbacks.use, j, k, force);
+      },
       [&](auto j, auto k) { callbacks.call_release(callbacks.release, j, k); });
 }
 
@@ -78,6 +83,7 @@ void ForceKernel::plain_sweep(const lattice::Field<double>& u, const Rows& rows,
   };
   for_each([&](std::int64_t j, std::int64_t k) {
     plain_->row(u, j, k, force.data());
+    ground_.add(j, k, force.data());
     callbacks.call_use(callbacks.use, j, k, force.data());
   });
   for_each([&](std::int64_t j, std::int64_t k) { callbacks.call_release(callbacks.release, j, k); });

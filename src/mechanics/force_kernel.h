@@ -9,13 +9,14 @@
 
 #include "koshi/spring_lattice.h"
 #include "mechanics/cell_sweep.h"
+#include "mechanics/ground_forces.h"
 #include "mechanics/plain_forces.h"
 
 namespace koshi::mechanics {
 
-/// F = -K u for the springs of one lattice, which must outlive it. Shared springs go cell by cell, each with its own
-/// material and factor; plain springs through the plain kernel. A node's force is summed in the same order whatever
-/// rows are asked for, so its bits do not depend on the partition among ranks.
+/// F = -K u for the springs of one lattice, which must outlive it, those to the ground among them. Shared springs go
+/// cell by cell, each with its own material and factor; plain springs through the plain kernel. A node's force is
+/// summed in the same order whatever rows are asked for, so its bits do not depend on the partition among ranks.
 ///
 /// The material of a cell and its factor are read from the lattice every time: they may change between two calls, at no
 /// cost but the change itself. The springs of the materials are read once, and so are the factors of plain springs.
@@ -54,6 +55,8 @@ class ForceKernel {
   Rows all_rows() const { return {0, lattice_.layout.owned()[1], 0, lattice_.layout.owned()[2]}; }
   const model::SpringLattice& lattice() const { return lattice_; }
   int components() const { return components_; }
+  /// Forces of the ground among those of the last call, for rows that it gave.
+  const GroundForces& ground() const { return ground_; }
 
  private:
   /// References to the functions of for_each_row().
@@ -70,6 +73,7 @@ class ForceKernel {
   const model::SpringLattice& lattice_;
   int components_;
   CellSweep<double> sweep_;
+  GroundForces ground_;
   std::vector<double> table_;  ///< constants by material
   /// What the constants of the strip at hand were made from.
   std::array<std::uint16_t, strip_cells> materials_{};

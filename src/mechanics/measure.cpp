@@ -1,5 +1,6 @@
 #include "mechanics/measure.h"
 
+#include <algorithm>
 #include <cmath>
 #include <unordered_map>
 
@@ -60,6 +61,16 @@ void Meter::for_each_row(model::State& state, F&& f) {
       row.faces[c] = state.face_force.component(c) + layout.index(0, j, k);
     f(j, k, row);
   });
+}
+
+double* const* Meter::ground_row(std::int64_t j, std::int64_t k) {
+  if (kernel_.ground().empty()) return nullptr;
+  for (std::size_t c = 0; c < 3; ++c) {
+    ground_[c].assign(static_cast<std::size_t>(model_.layout().owned()[0]), 0);
+    ground_row_[c] = ground_[c].data();
+  }
+  kernel_.ground().add(j, k, ground_row_.data());
+  return ground_row_.data();
 }
 
 namespace {
@@ -176,13 +187,15 @@ Balance Meter::balance(model::State& state, double dt) {
   return balance;
 }
 
-lattice::Field<double> Meter::reactions(model::State& state) {
+lattice::Field<double> Meter::reactions(model::State& state, bool ground) {
   lattice::Field<double> reaction(model_.layout(), model_.components());
   for_each_row(state, [&](auto j, auto k, const ForceRow& forces) {
     const std::int64_t row = j + model_.layout().owned()[1] * k, first = model_.layout().index(0, j, k);
+    if (double* const* held = ground ? ground_row(j, k) : nullptr)
+      for (int c = 0; c < 3; ++c) std::copy_n(held[c], model_.layout().owned()[0], reaction.component(c) + first);
     for (std::size_t m = motion_rows_.begin(row); m < motion_rows_.end(row); ++m) {
       const auto& [node, component, is_velocity, value, boundary] = model_.motions[m];
-      reaction.component(component)[node] = -forces.total(component, node - first);
+      reaction.component(component)[node] -= forces.total(component, node - first);
     }
   });
   return reaction;
@@ -208,6 +221,10 @@ Measurement Meter::measure(model::State& state, double dt) {
       const int c = motion.component;
       at->second[static_cast<std::size_t>(c)] = -forces.total(c, motion.node - first);
     }
+    double* const* held = wanted.empty() ? nullptr : ground_row(j, k);
+    for (std::int64_t i = 0; held != nullptr && i < model_.layout().owned()[0]; ++i)
+      if (const auto at = wanted.find(first + i); at != wanted.end())
+        for (std::size_t c = 0; c < 3; ++c) at->second[c] += held[c][i];
   });
 
   Measurement result{sums.total(model_.communicator), {}};

@@ -1,6 +1,7 @@
 // What is measured on a state: balance, energies, probes.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -51,13 +52,16 @@ class Meter {
   Meter(const model::Model& model, ForceKernel& kernel);
   Measurement measure(model::State& state, double dt);
   Balance balance(model::State& state, double dt);
-  /// Reactions [N], [N m] on prescribed components, zero elsewhere (collective).
-  lattice::Field<double> reactions(model::State& state);
+  /// Reactions [N], [N m] on prescribed components, and of surfaces that hold the body unless they are not asked for
+  /// (`ground`); zero elsewhere (collective).
+  lattice::Field<double> reactions(model::State& state, bool ground = true);
 
  private:
   /// Calls f(j, k, forces) for every row.
   template <class F>
   void for_each_row(model::State& state, F&& f);
+  /// Forces of the ground on row (j, k), by component to node i = 0; null: none.
+  double* const* ground_row(std::int64_t j, std::int64_t k);
   ProbeValue probe_value(const model::Probe& probe, const model::State& state,
                          const std::vector<std::array<double, 6>>& node_reactions) const;
 
@@ -66,6 +70,8 @@ class Meter {
   LoadRows loads_;
   RowIndex motion_rows_;
   std::optional<SurfaceStress> surface_;  ///< of probes with places on surfaces
+  std::array<std::vector<double>, 3> ground_;
+  std::array<double*, 3> ground_row_{};
 };
 
 /// Component names of a probe's quantity: {"x", "y", "z"}, {"xx", ...}; a unit for each quantity.

@@ -8,6 +8,7 @@
 #include "model/check_selection.h"
 #include "model/choices.h"
 #include "model/formula.h"
+#include "model/selection.h"
 
 namespace koshi::model {
 namespace {
@@ -83,8 +84,16 @@ void check_boundary(const Checker& check, const std::string& path, const Boundar
     for (const std::size_t c : {(axis + 1) % 3, (axis + 2) % 3, axis + 3})
       prescribe(c, fmt::format("twist about {}", component_names[axis]), at);
   }
-  if (std::all_of(prescribed_by.begin(), prescribed_by.end(), [](const auto& key) { return key.empty(); }))
-    check.fail(path, fmt::format("{} prescribes nothing; give it fix, displacement, velocity or twist", title));
+  const bool moves_or_fixes =
+      std::any_of(prescribed_by.begin(), prescribed_by.end(), [](const auto& key) { return !key.empty(); });
+  if (!moves_or_fixes && !boundary.support)
+    check.fail(path,
+               fmt::format("{} prescribes nothing; give it fix, displacement, velocity, twist or support", title));
+  if (boundary.support && surfaces_of(boundary.selection, check.definition).empty())
+    check.fail(path + ".support",
+               fmt::format("{} is a support by a surface, but selects none; give it the surface of a region, or hold "
+                           "nodes by fix",
+                           title));
 
   // The fitted rotation of a cell is no unknown: a fixed one is met by fixed displacements, a turned one is not.
   if (check.definition.lattice.kinematics == material::Kinematics::least_squares)

@@ -99,6 +99,10 @@ inline constexpr auto choices<Face> = std::to_array<Choice<Face>>({
 });
 
 template <>
+inline constexpr auto choices<BoundaryDefinition::Support> = std::to_array<Choice<BoundaryDefinition::Support>>(
+    {{"roller", BoundaryDefinition::Support::roller}, {"bonded", BoundaryDefinition::Support::bonded}});
+
+template <>
 inline constexpr auto choices<LoadDefinition::Distribution> = std::to_array<Choice<LoadDefinition::Distribution>>(
     {{"area", LoadDefinition::Distribution::area}, {"nodes", LoadDefinition::Distribution::nodes}});
 

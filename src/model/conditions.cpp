@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "base/collective.h"
 #include "base/exact_sum.h"
@@ -216,6 +217,24 @@ std::vector<Load> make_loads(const Model& model) {
 
 namespace {
 
+// Nodes that supports by the surfaces of a selection take hold of, beside those that it selects: a probe of reactions
+// has the whole force of its support.
+void add_supported_nodes(const Model& model, const Selection& selection, std::vector<SelectedNode>& nodes) {
+  if (surfaces_of(selection, model.definition).empty()) return;
+  std::set<std::int64_t> known;
+  for (const SelectedNode& node : nodes) known.insert(node.node);
+  for (const GroundSpring& spring : model.lattice.ground) {
+    if (!holds(selection, model.definition, spring.surface, spring.region)) continue;
+    const Int3 cell = model.layout().place(spring.cell);
+    for (int corner = 0; corner < 8; ++corner) {
+      const Int3 node{cell[0] + (corner & 1), cell[1] + (corner >> 1 & 1), cell[2] + (corner >> 2)};
+      if (!model.layout().owns(node) || !known.insert(model.layout().index(node)).second) continue;
+      nodes.push_back({model.layout().index(node), model.layout().global(node), {}, 0});
+    }
+  }
+  std::ranges::sort(nodes, {}, &SelectedNode::node);
+}
+
 // Places of a probe of stress or strain on surfaces: the middles of their pieces, each for its area.
 void set_places(const Model& model, const std::vector<int>& regions, const std::string& path, const std::string& title,
                 Probe& probe) {
@@ -247,7 +266,9 @@ std::vector<Probe> make_probes(const Model& model) {
       probes.push_back(std::move(probe));
       continue;
     }
-    const auto nodes = nodes_of(model, probe.definition.selection, path, title("probe", probe.definition.name, p));
+    auto nodes = nodes_of(model, probe.definition.selection, path, title("probe", probe.definition.name, p));
+    if (quantity == ProbeDefinition::Quantity::reaction || quantity == ProbeDefinition::Quantity::moment)
+      add_supported_nodes(model, probe.definition.selection, nodes);
     probe.total = add_weights(model, nodes, probe);
     if (probe.definition.quantity == ProbeDefinition::Quantity::moment) {
       const Vec3 center = probe.definition.center ? *probe.definition.center : mean_position(model, nodes);

@@ -15,6 +15,7 @@
 #include "model/pre_cracks.h"
 #include "model/regions.h"
 #include "model/scatter.h"
+#include "model/surface_supports.h"
 
 namespace koshi::model {
 namespace {
@@ -144,6 +145,7 @@ Model make_model(const Definition& definition, const Communicator& communicator)
   model.node_count = communicator.sum(counts[1]);
   model.motions = make_motions(model);
   model.motion_count = communicator.sum(static_cast<std::int64_t>(model.motions.size()));
+  collectively(communicator, [&] { model.lattice.ground = make_supports(model); });
   model.loads = make_loads(model);
   model.probes = make_probes(model);
   return model;

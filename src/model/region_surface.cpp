@@ -212,7 +212,7 @@ std::vector<SurfacePiece> surface_of(const Definition& definition, const lattice
     }
     Polygon corners;
     for (const Vec3& x : part) corners.push_back(position(x));
-    pieces.push_back({*home, position(place), (in ? 1 : -1) * grid.d * grid.d * area, std::move(corners)});
+    pieces.push_back({*home, position(place), (in ? 1 : -1) * grid.d * grid.d * area, std::move(corners), region});
   };
   // Whether another surface ends this one within a part: its corners have the body on other sides than its middle.
   const auto ends_within = [&](const Polygon& part) {

@@ -15,6 +15,7 @@ struct SurfacePiece {
   Vec3 at{};          ///< its centroid [m]
   Vec3 area{};        ///< area times the normal that points out of the body [m^2]
   Polygon corners{};  ///< in order [m]
+  int region = 0;     ///< whose surface it is
 };
 
 /// Where another surface ends one: between two pieces, or for pictures within a sixteenth of a cell.

@@ -24,6 +24,8 @@ void append_boundary(json& rows, const model::BoundaryDefinition& boundary) {
     if (boundary.fix[c]) fixed.push_back(model::component_names[c]);
   if (!fixed.empty()) rows.push_back({boundary.name, place, fmt::format("{}", fmt::join(fixed, ", ")), "fixed", ""});
 
+  if (boundary.support) rows.push_back({boundary.name, place, "support", model::choice_name(*boundary.support), ""});
+
   const auto moved = [&](const std::string& what, double value, const char* unit) {
     rows.push_back({boundary.name, place, what, quantity(value, unit), over_time(boundary.history, boundary.ramp)});
   };

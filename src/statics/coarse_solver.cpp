@@ -44,6 +44,17 @@ void add_cells(const Level& level, const std::vector<bool>& held, Mat matrix) {
     }
 }
 
+// Adds what holds single nodes.
+void add_springs(const Level& level, const std::vector<bool>& held, Mat matrix) {
+  for (const FixedNode& node : level.fixed())
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) {
+        const PetscInt row = number(level, node.node, a), column = number(level, node.node, b);
+        if (held[static_cast<std::size_t>(row)] || held[static_cast<std::size_t>(column)]) continue;
+        if (node.stiffness(a, b) != 0) check(MatSetValue(matrix, row, column, node.stiffness(a, b), ADD_VALUES));
+      }
+}
+
 }  // namespace
 
 CoarseSolver::CoarseSolver(const Level& level, double shift) {
@@ -57,6 +68,7 @@ CoarseSolver::CoarseSolver(const Level& level, double shift) {
   check(MatCreateSeqAIJ(PETSC_COMM_SELF, size, size, std::min<PetscInt>(27 * level.components(), size), nullptr,
                         matrix_.create()));
   add_cells(level, held, matrix_);
+  add_springs(level, held, matrix_);
   for (PetscInt i = 0; i < size; ++i) check(MatSetValue(matrix_, i, i, 0, ADD_VALUES));
   check(MatAssemblyBegin(matrix_, MAT_FINAL_ASSEMBLY));
   check(MatAssemblyEnd(matrix_, MAT_FINAL_ASSEMBLY));

@@ -34,7 +34,7 @@ Equilibrium::Equilibrium(const model::Model& model, double t, lattice::Field<dou
   const lattice::Layout& layout = model.layout();
   std::int64_t number = 0;
   lattice::for_each_owned(layout, [&](auto i, auto j, auto k, auto n) {
-    FixedNode fixed{{i, j, k}, 0};
+    FixedNode fixed{{i, j, k}, 0, {}};
     for (; motion != model.motions.end() && motion->node == n; ++motion) {
       fixed.mask |= static_cast<std::uint8_t>(1 << motion->component);
       prescribed_.push_back(

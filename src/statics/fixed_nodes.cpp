@@ -24,13 +24,14 @@ FixedNodes coarsened(const FixedNodes& fine, const Int3& owned, const Int3& coar
     }
     for (std::int64_t k = first[2]; k <= last[2]; ++k)
       for (std::int64_t j = first[1]; j <= last[1]; ++j)
-        for (std::int64_t i = first[0]; i <= last[0]; ++i) halved.push_back({{i, j, k}, fixed.mask});
+        for (std::int64_t i = first[0]; i <= last[0]; ++i) halved.push_back({{i, j, k}, fixed.mask, fixed.spring});
   }
-  std::sort(halved.begin(), halved.end(), before);
+  std::stable_sort(halved.begin(), halved.end(), before);
   FixedNodes coarse;
   for (const FixedNode& fixed : halved) {
-    if (coarse.empty() || coarse.back().node != fixed.node) coarse.push_back({fixed.node, 0});
+    if (coarse.empty() || coarse.back().node != fixed.node) coarse.push_back({fixed.node, 0, {}});
     coarse.back().mask |= fixed.mask;
+    for (std::size_t s = 0; s < fixed.spring.size(); ++s) coarse.back().spring[s] += fixed.spring[s];
   }
   return coarse;
 }

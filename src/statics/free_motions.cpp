@@ -75,6 +75,35 @@ std::vector<PartSums> sum_parts(const model::Model& model, const Parts& parts, c
   return sums;
 }
 
+// By part, products of the candidates' values at the springs to the ground, as if each was a prescribed component.
+std::vector<Eigen::MatrixXd> held_by_ground(const model::Model& model, const Parts& parts) {
+  std::vector<Eigen::MatrixXd> held(parts.list().size(), Eigen::MatrixXd::Zero(candidates, candidates));
+  const model::SpringLattice& body = model.lattice;
+  if (!model.communicator.any(!body.ground.empty())) return held;
+  std::vector<ExactSum> sums(parts.list().size() * candidates * candidates);
+  for (const model::GroundSpring& spring : body.ground) {
+    const Int3 cell = body.layout.place(spring.cell);
+    if (!body.layout.owns(cell)) continue;
+    // Its place in half cells from the grid's centre is the mean of the corners by their weights.
+    const Int3 lowest = half_cells(body, cell);
+    Vec3 X{};
+    for (std::size_t corner = 0; corner < 8; ++corner)
+      for (std::size_t a = 0; a < 3; ++a)
+        X[a] += spring.weights[corner] * static_cast<double>(lowest[a] + 2 * static_cast<int>(corner >> a & 1));
+    const Vec3 turn = cross(X, spring.direction);  // (w x X).n = w.(X x n)
+    std::array<double, candidates> v{};
+    for (std::size_t a = 0; a < 3; ++a) v[a] = spring.direction[a], v[3 + a] = turn[a];
+    const auto part = static_cast<std::size_t>(parts.of_node(cell));
+    for (std::size_t a = 0; a < candidates; ++a)
+      for (std::size_t b = 0; b < candidates; ++b) sums[(part * candidates + a) * candidates + b] += v[a] * v[b];
+  }
+  sum_ranks(sums, model.communicator);
+  for (std::size_t s = 0; s < sums.size(); ++s)
+    held[s / (candidates * candidates)](static_cast<Eigen::Index>(s / candidates % candidates),
+                                        static_cast<Eigen::Index>(s % candidates)) = sums[s].value();
+  return held;
+}
+
 // Columns that span the null space of a symmetric positive semidefinite matrix whose rows have been scaled alike.
 Eigen::MatrixXd null_space(const Eigen::MatrixXd& A) {
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(A);
@@ -89,6 +118,7 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& A) {
 FreeMotions::FreeMotions(const model::Model& model, const FixedNodes& fixed)
     : model_(model), components_(model.components()), parts_(model.lattice) {
   const auto sums = sum_parts(model, parts_, fixed);
+  const auto ground = held_by_ground(model, parts_);
   const auto& periodic = model.lattice.grid.periodic;
   std::vector<std::int32_t> free_of_part(sums.size(), -1);
   for (std::size_t p = 0; p < sums.size(); ++p) {
@@ -111,7 +141,8 @@ FreeMotions::FreeMotions(const model::Model& model, const FixedNodes& fixed)
     move.rightCols(3) /= size;
     Eigen::MatrixXd held(candidates, candidates);
     for (int a = 0; a < candidates; ++a)
-      for (int b = 0; b < candidates; ++b) held(a, b) = static_cast<double>(s.held[candidates * a + b]);
+      for (int b = 0; b < candidates; ++b)
+        held(a, b) = static_cast<double>(s.held[candidates * a + b]) + ground[p](a, b);
     held = (move.transpose() * held * move).eval();
     // Rotations that do not fit a periodic direction are no motions.
     const double hold = static_cast<double>(s.nodes);

@@ -11,8 +11,8 @@
 
 namespace koshi::statics {
 
-/// The rigid-body motions of each part that the prescribed components leave free. The stiffness cannot resist them: the
-/// right-hand side must not push along them, and the solution is made free of them.
+/// The rigid-body motions of each part that the prescribed components and the ground leave free. The stiffness cannot
+/// resist them: the right-hand side must not push along them, and the solution is made free of them.
 class FreeMotions {
  public:
   /// Finds them (collective).

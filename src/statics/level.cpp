@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <utility>
 
 namespace koshi::statics {
@@ -85,7 +86,26 @@ Level::Level(LevelGrid grid, int components, const RowField<float>& constants, F
       blocks_(springs_, fixed_, components),
       y_(grid_.owned(), components),
       sweep_(components, grid_.owned()[0], grid_.owned()[1], cells_below(grid_), 1, cache),
-      line_({grid_.owned()[0] + 1, 0, 0}, 1) {}
+      line_({grid_.owned()[0] + 1, 0, 0}, 1) {
+  std::ranges::copy_if(fixed_, std::back_inserter(sprung_), &FixedNode::sprung);
+  if (sprung_.empty()) return;
+  std::size_t at = 0;
+  for (std::int64_t row = 0; row < grid_.owned()[1] * grid_.owned()[2]; ++row) {
+    sprung_of_row_.push_back(at);
+    while (at < sprung_.size() && sprung_[at].node[1] + grid_.owned()[1] * sprung_[at].node[2] == row) ++at;
+  }
+  sprung_of_row_.push_back(at);
+}
+
+void Level::add_springs(std::int64_t j, std::int64_t k, float* const* force) {
+  if (sprung_.empty()) return;
+  const auto row = static_cast<std::size_t>(j + grid_.owned()[1] * k);
+  for (std::size_t s = sprung_of_row_[row]; s < sprung_of_row_[row + 1]; ++s) {
+    const std::int64_t i = sprung_[s].node[0];
+    for (int c = 0; c < 3; ++c)
+      for (int e = 0; e < 3; ++e) force[c][i] -= sprung_[s].stiffness(c, e) * x.row(j, k)[e * x.pitch() + i];
+  }
+}
 
 mechanics::RelaxRow Level::relax_row(std::int64_t j, std::int64_t k, const float* force) {
   return {b.row(j, k),    x.row(j, k),       y_.row(j, k),      b.pitch(),        force,
@@ -119,7 +139,9 @@ void Level::for_each_row(F&& use) {
         y_.fetch(i, j, k, nodes);
       },
       [&](std::int64_t j, std::int64_t k, float* const* force) {
-        if (blocks_.row(j, k) != nullptr) use(j, k, relax_row(j, k, force[0]));
+        if (blocks_.row(j, k) == nullptr) return;
+        add_springs(j, k, force);
+        use(j, k, relax_row(j, k, force[0]));
       },
       [](std::int64_t, std::int64_t) {});
 }

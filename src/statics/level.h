@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "koshi/grid.h"
 #include "lattice/halo.h"
@@ -65,11 +66,15 @@ class Level {
   template <class F>
   void for_each_row(F&& use);
   void clear_ghosts_of_odd_periods();
+  /// Adds the forces of springs that hold nodes of row (j, k), force[c] pointing to node i = 0.
+  void add_springs(std::int64_t j, std::int64_t k, float* const* force);
   mechanics::RelaxRow relax_row(std::int64_t j, std::int64_t k, const float* force);
 
   LevelGrid grid_;
   int components_;
   FixedNodes fixed_;
+  FixedNodes sprung_;                       ///< those with springs
+  std::vector<std::size_t> sprung_of_row_;  ///< the first of each row, and the end; empty: none anywhere
   SpringRows springs_;
   NodeBlocks blocks_;
   RowField<float> y_;

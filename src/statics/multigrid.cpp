@@ -49,13 +49,22 @@ LevelGrid on_one_rank(const LevelGrid& grid) {
 FixedNodes gathered(const FixedNodes& fixed, const LevelGrid& grid, const LevelGrid& whole) {
   RowField<std::uint8_t> mask(grid.owned(), 1), all(whole.owned(), 1);
   for (const FixedNode& f : fixed) mask.row(f.node[1], f.node[2])[f.node[0]] = f.mask;
+  RowField<float> spring(grid.owned(), 6), springs(whole.owned(), 6);
+  for (const FixedNode& f : fixed)
+    for (std::size_t s = 0; s < 6; ++s)
+      spring.row(f.node[1], f.node[2])[static_cast<std::ptrdiff_t>(s) * spring.pitch() + f.node[0]] = f.spring[s];
   const Communicator& communicator = grid.halo->communicator();
   unpack(communicator.all_gather(packed(mask)), *grid.partition, communicator.size(), all);
+  unpack(communicator.all_gather(packed(spring)), *grid.partition, communicator.size(), springs);
   FixedNodes result;
   for (std::int64_t k = 0; k < whole.owned()[2]; ++k)
     for (std::int64_t j = 0; j < whole.owned()[1]; ++j)
-      for (std::int64_t i = 0; i < whole.owned()[0]; ++i)
-        if (const std::uint8_t m = all.row(j, k)[i]; m != 0) result.push_back({{i, j, k}, m});
+      for (std::int64_t i = 0; i < whole.owned()[0]; ++i) {
+        FixedNode node{{i, j, k}, all.row(j, k)[i], {}};
+        for (std::size_t s = 0; s < 6; ++s)
+          node.spring[s] = springs.row(j, k)[static_cast<std::ptrdiff_t>(s) * springs.pitch() + i];
+        if (node.mask != 0 || node.sprung()) result.push_back(node);
+      }
   return result;
 }
 

@@ -37,11 +37,14 @@ class BlockMaker {
   }
 
   /// Inverse block of node i.
-  Block inverse(const CellRows& rows, std::int64_t i, std::uint8_t fixed) const {
+  Block inverse(const CellRows& rows, std::int64_t i, const FixedNode& held) const {
+    const std::uint8_t fixed = held.mask;
     Block K = Block::Zero(components_, components_);
     for (int corner = 0; corner < 8; ++corner)
       for (int q = 0; q < cell_constants; ++q)
         if (const float k = constant(rows, i, corner, q); k != 0) K += k * corner_[q][corner];
+    for (int a = 0; a < 3; ++a)
+      for (int b = 0; b < 3; ++b) K(a, b) += static_cast<double>(held.stiffness(a, b));
     for (int c = 0; c < components_; ++c)
       if (fixed >> c & 1) {
         K.row(c).setZero();
@@ -80,7 +83,7 @@ class BlockMaker {
 struct Group {
   CellRows rows;
   std::int64_t first, last;
-  std::array<std::uint8_t, block_width> fixed;
+  std::array<FixedNode, block_width> held;
 };
 
 }  // namespace
@@ -105,7 +108,7 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
         for (; next_fixed != fixed.end() && next_fixed->node[2] == k && next_fixed->node[1] == j &&
                next_fixed->node[0] < last;
              ++next_fixed) {
-          group.fixed[static_cast<std::size_t>(next_fixed->node[0] - first)] = next_fixed->mask;
+          group.held[static_cast<std::size_t>(next_fixed->node[0] - first)] = *next_fixed;
           any_fixed = true;
         }
         if (empty) {
@@ -114,12 +117,15 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
         }
         std::string key(reinterpret_cast<const char*>(rows.data()), sizeof rows);
         key.append(reinterpret_cast<const char*>(&first), sizeof first);
-        key.append(group.fixed.begin(), group.fixed.end());
+        for (std::size_t i = 0; any_fixed && i < group.held.size(); ++i) {
+          key.push_back(static_cast<char>(group.held[i].mask));
+          key.append(reinterpret_cast<const char*>(group.held[i].spring.data()), sizeof group.held[i].spring);
+        }
         const auto [entry, is_new] = known.try_emplace(key, 0);
         if (is_new && !any_fixed && maker.is_uniform(rows, first, last)) {
           // By symmetry the block is a multiple of one for displacements and for rotations.
           entry->second = ~static_cast<std::int32_t>(uniform_.size() / 2);
-          const Block B = maker.inverse(rows, first, 0);
+          const Block B = maker.inverse(rows, first, {});
           uniform_.push_back(static_cast<float>(B(0, 0)));
           uniform_.push_back(static_cast<float>(B(components - 1, components - 1)));
         } else if (is_new) {
@@ -137,7 +143,7 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
     const Group& group = distinct[g];
     for (std::int64_t i = group.first; i < group.last; ++i) {
       if (maker.is_empty(group.rows, i)) continue;
-      const Block B = maker.inverse(group.rows, i, group.fixed[static_cast<std::size_t>(i - group.first)]);
+      const Block B = maker.inverse(group.rows, i, group.held[static_cast<std::size_t>(i - group.first)]);
       float* to = blocks_.data() + g * set + (i - group.first);
       for (int a = 0; a < components; ++a)
         for (int b = 0; b <= a; ++b, to += block_width) *to = static_cast<float>(B(a, b));

@@ -10,9 +10,10 @@
 
 namespace koshi::statics {
 
-/// The inverse of each node's own block of the stiffness matrix, 6 x 6 or 3 x 3; zero in rows and columns of fixed
-/// components and for nodes without a cell. Nodes come in groups of mechanics::block_width along a row; groups with
-/// equal surroundings share their blocks, and inside a uniform material a block is just two numbers.
+/// The inverse of each node's own block of the stiffness matrix, with the springs that hold it, 6 x 6 or 3 x 3; zero in
+/// rows and columns of fixed components and for nodes without a cell. Nodes come in groups of mechanics::block_width
+/// along a row; groups with equal surroundings share their blocks, and inside a uniform material a block is just two
+/// numbers.
 class NodeBlocks {
  public:
   /// Springs hold every corner of a cell (relaxation_bound() has checked them).

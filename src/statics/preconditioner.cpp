@@ -1,7 +1,9 @@
 #include "statics/preconditioner.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
 
 #include "statics/cell_springs.h"
 
@@ -19,11 +21,16 @@ std::vector<CellConstants> preconditioner_constants(const model::SpringLattice& 
   return by_material;
 }
 
-// Constants of all cells, scaled so that the stiffest is 1: single precision then serves any unit.
-RowField<float> fine_constants(const model::SpringLattice& body, const std::vector<CellConstants>& by_material) {
+double largest_of(const std::vector<CellConstants>& by_material) {
   double largest = 0;
   for (const CellConstants& constants : by_material)
     for (const double k : constants) largest = std::max(largest, std::abs(k));
+  return largest;
+}
+
+// Constants of all cells, scaled so that the stiffest is 1: single precision then serves any unit.
+RowField<float> fine_constants(const model::SpringLattice& body, const std::vector<CellConstants>& by_material) {
+  const double largest = largest_of(by_material);
   RowField<float> constants(body.layout.owned(), mechanics::cell_constants);
   const std::uint16_t* const cell = body.cell.component(0);
   lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
@@ -33,6 +40,39 @@ RowField<float> fine_constants(const model::SpringLattice& body, const std::vect
           static_cast<float>(body.factor_of(n) * by_material[cell[n]][q] / largest);
   });
   return constants;
+}
+
+// Fixed nodes, and those that the ground holds. A spring at a place between nodes becomes one at each of them:
+// (sum_a N_a e_a)^2 <= sum_b |N_b| sum_a |N_a| e_a^2, so the body of the levels is held no less than it is, and the
+// bound of the relaxation stays. `largest`: the stiffness that the levels take for 1.
+FixedNodes held_nodes(const model::SpringLattice& body, const FixedNodes& fixed, double largest) {
+  if (body.ground.empty()) return fixed;
+  std::map<std::array<std::int64_t, 3>, FixedNode> held;  // in memory order
+  const auto at = [&](const Int3& node) -> FixedNode& {
+    FixedNode& there = held[{node[2], node[1], node[0]}];
+    there.node = node;
+    return there;
+  };
+  for (const FixedNode& node : fixed) at(node.node).mask = node.mask;
+  constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
+  const auto& layout = body.layout;
+  for (const model::GroundSpring& spring : body.ground) {
+    const Int3 cell = layout.place(spring.cell);
+    double sum = 0;
+    for (const double weight : spring.weights) sum += std::abs(weight);
+    for (std::size_t a = 0; a < 8; ++a) {
+      Int3 node = cell;
+      for (std::size_t axis = 0; axis < 3; ++axis) node[axis] += a >> axis & 1;
+      if (!layout.owns(node)) continue;
+      const double k = spring.stiffness * sum * std::abs(spring.weights[a]) / largest;
+      FixedNode& there = at(node);
+      for (std::size_t s = 0; s < 6; ++s)
+        there.spring[s] += static_cast<float>(k * spring.direction[pairs[s][0]] * spring.direction[pairs[s][1]]);
+    }
+  }
+  FixedNodes list;
+  for (const auto& [place, node] : held) list.push_back(node);
+  return list;
 }
 
 }  // namespace
@@ -48,7 +88,8 @@ Preconditioner::Preconditioner(const model::Model& model, const FixedNodes& fixe
   // Nearly incompressible springs have a wide spectrum that the relaxation must cover.
   options.degree = options.bound < 4 ? 3 : options.bound < 6 ? 4 : 5;
   hierarchy_ = std::make_unique<Hierarchy>(LevelGrid{body.grid, body.partition, body.halo}, components_,
-                                           fine_constants(body, by_material), fixed, options);
+                                           fine_constants(body, by_material),
+                                           held_nodes(body, fixed, largest_of(by_material)), options);
 }
 
 template <class T, class F>

@@ -148,7 +148,7 @@ scale = "1 mm")",
        R"(1:1: error: unknown key "" in the input; known: "title", "lattice", "body", "material", "region", "crack", "selection", "boundary", "load", "macroscopic", "analysis", "probe", "output")"},
       {R"(name = "top")", R"(name = "top"
 nodes = "all")",
-       R"(23:1: error: unknown key "nodes" in [[boundary]]; known: "name", "face", "box", "point", "surface", "selection", "fix", "displacement", "velocity", "twist", "center", "ramp", "history")"},
+       R"(23:1: error: unknown key "nodes" in [[boundary]]; known: "name", "face", "box", "point", "surface", "selection", "fix", "displacement", "velocity", "twist", "center", "ramp", "history", "support")"},
       {"[output]", R"([output]
 format = "vtk")",
        R"(36:1: error: unknown key "format" in [output]; known: "fields", "every", "every_events", "history_every", "checkpoint_every", "checkpoint_every_wall", "report", "crack_surface", "surface")"},

@@ -171,7 +171,7 @@ twist = { z = "1 deg" })",
        R"(24:15: error: boundary "top" prescribes y by twist about x and by twist about z; keep one of them)"},
       {R"(displacement = { z = "-0.1 mm" }
 )",
-       "", R"(21:1: error: boundary "top" prescribes nothing; give it fix, displacement, velocity or twist)"},
+       "", R"(21:1: error: boundary "top" prescribes nothing; give it fix, displacement, velocity, twist or support)"},
       {R"(displacement = { z = "-0.1 mm" }
 )",
        R"(displacement = { z = "-0.1 mm" }

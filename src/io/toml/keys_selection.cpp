@@ -157,6 +157,10 @@ const std::vector<Key<BoundaryDefinition>>& keys_of(Tag<BoundaryDefinition>) {
                  "Factor on the motion over time: pairs [time, factor], linear between, constant outside.",
                  {.example = R"([["0 s", 0], ["1 s", 1]])"})
               .only_for(motion, motions, moves),
+          key<D>(
+              "support", &D::support,
+              "The surface holds the body at its true place: \"roller\" along its normal, so that the body slides upon "
+              "it, \"bonded\" in every direction."),
       });
   return keys;
 }
