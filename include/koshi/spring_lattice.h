@@ -29,6 +29,20 @@ struct GroundSpring {
   int region = 0;                   ///< whose surface that is, index into Definition::regions
 };
 
+/// Number of different integrals of x^a y^b z^c over a part of a cell that the energy of a trilinear displacement has.
+inline constexpr int moment_count = 23;
+
+/// These integrals over a cell's volume, x from the cell's centre in half edges; the first is the fraction inside.
+/// Order: model/moments.h.
+using Moments = std::array<double, moment_count>;
+
+/// A cell at a surface: one that a surface cuts, or a whole one beside such.
+struct SurfaceCell {
+  std::int64_t cell = 0;     ///< index of its lowest corner
+  std::int32_t part = -1;    ///< in SpringLattice::moments; -1: it is whole
+  std::uint8_t corners = 0;  ///< its corners that a cut cell has too, as bits
+};
+
 /// Cells and springs on one rank's nodes and ghosts. Fields of cells have one component, with the cell's value at the
 /// index of its lowest corner; they are known for the cells that touch an owned node.
 struct SpringLattice {
@@ -52,6 +66,8 @@ struct SpringLattice {
   /// Of nodes: bit `slot` of the forward bonds that are broken, all of their cells' shares; no components where bonds
   /// do not break. Measures and make_bonds() leave them out, the cell kernel does not.
   lattice::Field<std::uint16_t> broken;
+  std::vector<SurfaceCell> surface;        ///< by index; those with a fraction between 0 and 1 are cut; frozen
+  std::vector<Moments> moments;            ///< of the parts inside of cut cells
   std::vector<material::Springs> springs;  ///< by material index; entry 0 (empty) is zero
   /// Plain springs only, known on owned and ghost nodes: stiffness of forward bonds, component 2 slot: kn [N/m],
   /// 2 slot + 1: kt [N/m].
@@ -84,6 +100,10 @@ SpringLattice make_cells(const lattice::Grid& grid, std::shared_ptr<const lattic
 /// Gives the cells the parts of their volume that are inside: `fraction_of(global cell)`, 0 ... 1; the factors of the
 /// cells are the same.
 void make_fractions(SpringLattice& body, const std::function<float(const Int3&)>& fraction_of);
+
+/// Gives the cells with a fraction between 0 and 1 the moments of the part inside, `moments_of(global cell)`, and finds
+/// the cells beside them (collective).
+void make_surface(SpringLattice& body, const std::function<Moments(const Int3&)>& moments_of);
 
 /// Gives the cells factors, `factor_of(global cell)`, 0 ... 1, times their fractions.
 void make_factors(SpringLattice& body, const std::function<float(const Int3&)>& factor_of);

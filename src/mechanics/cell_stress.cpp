@@ -4,6 +4,7 @@
 
 #include "mechanics/bond_law.h"
 #include "mechanics/cell_bonds.h"
+#include "mechanics/cut_forces.h"
 
 namespace koshi::mechanics {
 namespace {
@@ -80,6 +81,19 @@ CellState cell_state(const model::SpringLattice& body, const CellMotion& motion,
   for (int v = 0; v < 3; ++v) {
     state.stress[v] += pressure;
     state.energy += 0.5 * pressure * state.strain[v];
+  }
+  // At a surface what makes it smooth: virial and work of those forces.
+  if (const model::SurfaceCell* at_surface = surface_cell(body, cell)) {
+    const CellMotion force = cut_forces(body, *at_surface, motion);
+    for (int a = 0; a < 8; ++a) {
+      const auto corner = corner_of(a);
+      const Vec3& F = force.displacement[a];
+      state.energy -= 0.5 * (dot(displacement[a], F) + dot(rotation[a], force.rotation[a])) / volume;
+      for (int v = 0; v < 6; ++v) {
+        const auto [i, j] = pairs[v];
+        state.stress[v] -= 0.5 * d * (corner[i] * F[j] + corner[j] * F[i]) / volume;
+      }
+    }
   }
   return state;
 }

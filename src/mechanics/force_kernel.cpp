@@ -5,6 +5,7 @@
 
 #include "lattice/halo.h"
 #include "mechanics/cell_table.h"
+#include "mechanics/cut_forces.h"
 
 namespace koshi::mechanics {
 namespace {
@@ -31,12 +32,15 @@ ForceKernel::ForceKernel(const SpringLattice& lattice)
                       std::vector<double>(static_cast<std::size_t>(lattice.layout.owned()[0] + lattice::Layout::lead)));
     return;
   }
+  if (!lattice.surface.empty()) cut_ = std::make_unique<CutForces>(lattice);
   for (const material::Springs& springs : lattice.springs) {
     const auto constants = springs_of_cell(springs, lattice.grid.d);
     table_.insert(table_.end(), constants.begin(), constants.end());
     table_.resize((table_.size() + table_constants - 1) / table_constants * table_constants, 0.0);
   }
 }
+
+ForceKernel::~ForceKernel() = default;
 
 // Constants of a strip of cells; of those that are as they were in the last strip nothing needs to be made.
 const double* ForceKernel::constants(std::int64_t i, std::int64_t j, std::int64_t k, std::int64_t cells, double* to) {
@@ -60,15 +64,17 @@ void ForceKernel::sweep(const lattice::Field<double>& u, const Rows& rows, const
   ground_.update(u, rows);
   if (plain_) return plain_sweep(u, rows, callbacks);
   const lattice::Layout& layout = lattice_.layout;
+  const NodeValues<double> values{u.component(0) + layout.index(0, 0, 0), u.stride(), layout.pitch(), layout.plane()};
+  if (cut_) cut_->update(values, rows);
   sweep_.run(
-      {u.component(0) + layout.index(0, 0, 0), u.stride(), layout.pitch(), layout.plane()}, rows,
-      [this](auto i, auto j, auto k, auto cells, double* to) { return constants(i, j, k, cells, to); },
+      values, rows, [this](auto i, auto j, auto k, auto cells, double* to) { return constants(i, j, k, cells, to); },
       [&](auto i, auto j, auto k, auto nodes) {
         const std::int64_t n = layout.index(i, j, k);
         callbacks.call_fetch(callbacks.fetch, n, n + nodes);
       },
       [&](auto j, auto k, double* const* force) {
         ground_.add(j, k, force);
+        if (cut_) cut_->add(j, k, force);
         callbacks.call_use(callbacks.use, j, k, force);
       },
       [&](auto j, auto k) { callbacks.call_release(callbacks.release, j, k); });

@@ -14,6 +14,8 @@
 
 namespace koshi::mechanics {
 
+class CutForces;
+
 /// F = -K u for the springs of one lattice, which must outlive it, those to the ground among them. Shared springs go
 /// cell by cell, each with its own material and factor; plain springs through the plain kernel. A node's force is
 /// summed in the same order whatever rows are asked for, so its bits do not depend on the partition among ranks.
@@ -23,6 +25,7 @@ namespace koshi::mechanics {
 class ForceKernel {
  public:
   explicit ForceKernel(const model::SpringLattice& lattice);
+  ~ForceKernel();
 
   /// Calls use(j, k, force) for every one of the given rows of owned nodes: forces [N] and moments [N m] by component,
   /// pointers to node i = 0, valid until the next call; `use` may change them. Ghosts of `u` must be up to date. Calls
@@ -78,6 +81,7 @@ class ForceKernel {
   /// What the constants of the strip at hand were made from.
   std::array<std::uint16_t, strip_cells> materials_{};
   std::array<float, strip_cells> factors_{};
+  std::unique_ptr<CutForces> cut_;              ///< where surfaces cut cells
   std::unique_ptr<PlainForces> plain_;          ///< of plain springs
   std::vector<std::vector<double>> plain_row_;  ///< by component
 };

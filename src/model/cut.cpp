@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "model/moments.h"
 #include "model/plane_cut.h"
 #include "model/regions.h"
 
@@ -38,21 +39,35 @@ Side side_of(const Primitive& p, const Vec3& centre, double edge) {
   return Side::through;
 }
 
-// Whether a surface is so flat on the cube that part_inside() is good to about a millionth.
+// Whether a surface is so flat on the cube that the volume below its flat_cut() is good to about a millionth.
 bool flat(const Primitive& p, double edge) { return p.kind == Primitive::Kind::plane || edge <= p.radius / 16; }
 
-// Part of a cube inside a surface that is nearly flat: below the plane that fits the distances at the corners, moved to
-// the mean distance by Simpson's rule, so that the curvature counts.
-double part_inside(const Primitive& p, const Vec3& centre, double edge) {
-  Vec3 slope{};
+// Whether it leaves the planes of flat_cut() in cubes side by side by less than a five-hundredth of a cell's edge d at
+// their common face: sagitta edge^2 / (8 radius).
+bool flat_at_borders(const Primitive& p, double edge, double d) {
+  return p.kind == Primitive::Kind::plane || edge * edge <= 0.016 * p.radius * d;
+}
+
+/// The part of a cube where normal . x <= offset, x from its centre in edges.
+struct FlatCut {
+  Vec3 normal{};
+  double offset = 0;
+};
+
+// The part inside a surface that is nearly flat: below the plane that fits the distances at the corners, moved to the
+// mean distance by Simpson's rule, so that the curvature counts.
+FlatCut flat_cut(const Primitive& p, const Vec3& centre, double edge) {
+  FlatCut cut;
   double mean = 0;
   for (int c = 0; c < 8; ++c) {
     const double d = p.distance(corner(centre, edge, c));
     mean += d / 8;
-    for (int a = 0; a < 3; ++a) slope[static_cast<std::size_t>(a)] += (c >> a & 1 ? d : -d) / 4;
+    for (int a = 0; a < 3; ++a) cut.normal[static_cast<std::size_t>(a)] += (c >> a & 1 ? d : -d) / 4;
   }
-  if (slope == Vec3{}) return p.distance(centre) <= 0 ? 1 : 0;
-  return part_below(slope, -(2 * p.distance(centre) + mean) / 3);
+  cut.offset = -(2 * p.distance(centre) + mean) / 3;
+  // At the middle of a small ball no plane fits: the cube is whole or empty.
+  if (cut.normal == Vec3{}) return {{edge, 0, 0}, p.distance(centre) <= 0 ? edge : -edge};
+  return cut;
 }
 
 // Whether some of a cube lies inside all primitives; adds those that pass through it.
@@ -133,35 +148,27 @@ std::vector<CutBody::Passing> CutBody::narrowed(const std::vector<Passing>& laye
   return found;
 }
 
-void CutBody::add(const Cube& cube, int depth, const std::vector<Passing>& layers, std::uint16_t background,
-                  std::vector<double>& volume) const {
-  const double size = cube.edge * cube.edge * cube.edge / (grid_.d * grid_.d * grid_.d);
+template <class Flat, class Whole, class Cut>
+void CutBody::divide(const Cube& cube, int depth, const std::vector<Passing>& layers, std::uint16_t background,
+                     const Flat& flat, const Whole& whole, const Cut& cut) {
   std::size_t surfaces = 0;
   for (const Passing& layer : layers) surfaces += layer.surfaces.size();
-  if (surfaces == 0) {
-    volume[layers.empty() ? background : layers.front().material] += size;
-    return;
-  }
+  if (surfaces == 0) return whole(layers.empty() ? background : layers.front().material, cube);
   // One surface that is nearly flat: only the first layer can have it, and the one below holds the whole cube.
   const Primitive* only = surfaces == 1 ? &layers.front().surfaces.front() : nullptr;
-  if (only != nullptr && (flat(*only, cube.edge) || depth == most_halvings)) {
-    const double part = part_inside(*only, cube.centre, cube.edge);
-    volume[layers.front().material] += part * size;
-    volume[layers.size() > 1 ? layers[1].material : background] += (1 - part) * size;
-    return;
-  }
+  if (only != nullptr && (flat(*only, cube.edge) || depth == most_halvings))
+    return cut(*only, layers.front().material, layers.size() > 1 ? layers[1].material : background, cube);
   if (depth == most_halvings) {
     const auto holds = [&](const Passing& layer) {
       return std::all_of(layer.surfaces.begin(), layer.surfaces.end(),
                          [&](const Primitive& p) { return p.distance(cube.centre) <= 0; });
     };
     const auto layer = std::find_if(layers.begin(), layers.end(), holds);
-    volume[layer == layers.end() ? background : layer->material] += size;
-    return;
+    return whole(layer == layers.end() ? background : layer->material, cube);
   }
   for (int c = 0; c < 8; ++c) {
     const Cube part{corner(cube.centre, 0.5 * cube.edge, c), 0.5 * cube.edge};
-    add(part, depth + 1, narrowed(layers, part), background, volume);
+    divide(part, depth + 1, narrowed(layers, part), background, flat, whole, cut);
   }
 }
 
@@ -174,7 +181,16 @@ CellPart CutBody::part_of(const Int3& cell) const {
     return {material, material == 0 ? 0.0 : 1.0, 0};
   }
   std::vector<double> volume(definition_.materials.size() + 1);
-  add(cube, 0, layers, background(cell), volume);
+  const auto size_of = [this](const Cube& at) { return at.edge * at.edge * at.edge / (grid_.d * grid_.d * grid_.d); };
+  divide(
+      cube, 0, layers, background(cell), [](const Primitive& p, double edge) { return flat(p, edge); },
+      [&](std::uint16_t material, const Cube& at) { volume[material] += size_of(at); },
+      [&](const Primitive& p, std::uint16_t in, std::uint16_t out, const Cube& at) {
+        const FlatCut plane = flat_cut(p, at.centre, at.edge);
+        const double part = part_below(plane.normal, plane.offset);
+        volume[in] += part * size_of(at);
+        volume[out] += (1 - part) * size_of(at);
+      });
   double solid = 0;
   std::uint16_t most = 1;
   for (std::size_t m = 1; m < volume.size(); ++m) {
@@ -183,6 +199,35 @@ CellPart CutBody::part_of(const Int3& cell) const {
   }
   if (solid < CellPart::least) return {0, 0, solid};
   return {most, solid > 1 - slack ? 1 : solid, 0};
+}
+
+Moments CutBody::moments_of(const Int3& cell) const {
+  const Cube cube{grid_.position(cell) + Vec3{0.5 * grid_.d, 0.5 * grid_.d, 0.5 * grid_.d}, grid_.d};
+  Moments sum{};
+  const auto add = [&sum](double sign, const Moments& part) {
+    for (std::size_t m = 0; m < sum.size(); ++m) sum[m] += sign * part[m];
+  };
+  const auto in_cell = [&](const Cube& at) {
+    return PartCube{(2 / grid_.d) * (at.centre - cube.centre), at.edge / grid_.d};
+  };
+  divide(
+      cube, 0, passing(cube, cell), background(cell),
+      [&](const Primitive& p, double edge) { return flat_at_borders(p, edge, grid_.d); },
+      [&](std::uint16_t material, const Cube& at) {
+        if (material != 0) add(1, moments_of_cube(in_cell(at)));
+      },
+      [&](const Primitive& p, std::uint16_t in, std::uint16_t out, const Cube& at) {
+        if (in != 0 && out != 0) return add(1, moments_of_cube(in_cell(at)));
+        // Of a plane in edges from the cube's centre to one in half edges of the cell.
+        const FlatCut plane = flat_cut(p, at.centre, at.edge);
+        const PartCube part = in_cell(at);
+        const Moments below = moments_below(part, plane.normal, 2 * part.half * plane.offset);
+        if (in != 0) return add(1, below);
+        if (out == 0) return;
+        add(1, moments_of_cube(part));
+        add(-1, below);
+      });
+  return sum;
 }
 
 std::uint16_t CutBody::material_at(const Vec3& x, const Int3& cell, int forced, bool holds) const {

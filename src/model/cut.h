@@ -7,6 +7,7 @@
 
 #include "koshi/definition.h"
 #include "koshi/grid.h"
+#include "koshi/spring_lattice.h"
 #include "model/shapes.h"
 
 namespace koshi::model {
@@ -27,6 +28,9 @@ class CutBody {
 
   /// Parts of a global cell, the same on every rank.
   CellPart part_of(const Int3& cell) const;
+
+  /// Moments of what is solid in a global cell, of any material.
+  Moments moments_of(const Int3& cell) const;
 
   /// Material at a point of a global cell, with region `forced` taken as holding the point or not (-1: none); border
   /// points belong to regions.
@@ -50,8 +54,11 @@ class CutBody {
 
   std::vector<Passing> passing(const Cube& cube, const Int3& cell) const;
   static std::vector<Passing> narrowed(const std::vector<Passing>& layers, const Cube& cube);
-  void add(const Cube& cube, int depth, const std::vector<Passing>& layers, std::uint16_t background,
-           std::vector<double>& volume) const;
+  /// Halves a cube of a cell until no surface or a nearly flat one passes, as `flat(surface, edge)` says, and calls
+  /// whole(material, cube) or cut(surface, material inside, material outside, cube).
+  template <class Flat, class Whole, class Cut>
+  static void divide(const Cube& cube, int depth, const std::vector<Passing>& layers, std::uint16_t background,
+                     const Flat& flat, const Whole& whole, const Cut& cut);
   std::size_t index(const Int3& cell) const;
   std::uint16_t background(const Int3& cell) const;
   const CutCell* cut_cell(const RegionDefinition& region, const Int3& cell) const;

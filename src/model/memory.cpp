@@ -89,6 +89,26 @@ double mixed_bytes(const Definition& definition, const lattice::Grid& grid, int 
   return count * (8.0 / 7 * distinct_rows * row_bytes + 4.0 / 3 * distinct_groups * group_bytes);
 }
 
+// Cut cells with their moments (koshi/spring_lattice.h), and what the kernels of a run keep of them and the whole cells
+// beside them, about three to two (mechanics/cut_forces.h); their number from a sample of rows.
+double surface_bytes(const Definition& definition, const lattice::Grid& grid) {
+  if (!definition.cuts()) return 0;
+  constexpr int rows_sampled = 100;
+  constexpr double bytes_per_cut_cell = 950;
+  const auto fraction_of = fraction_of_cells(definition, grid);
+  std::minstd_rand random;
+  const Int3& n = grid.cells;
+  std::int64_t cut = 0;
+  for (int sample = 0; sample < rows_sampled; ++sample) {
+    const std::int64_t j = static_cast<std::int64_t>(random()) % n[1], k = static_cast<std::int64_t>(random()) % n[2];
+    for (std::int64_t i = 0; i < n[0]; ++i) {
+      const float part = fraction_of({i, j, k});
+      cut += part > 0 && part < 1;
+    }
+  }
+  return bytes_per_cut_cell * static_cast<double>(cut) * static_cast<double>(n[1] * n[2]) / rows_sampled;
+}
+
 // Bytes per node of the fields of a sample: those that are computed, and the copies that go to the file.
 double sample_bytes(const Definition& definition) {
   double bytes = 0;
@@ -120,7 +140,7 @@ double predicted_memory(const Definition& definition, int ranks) {
   double bytes = 2 + (factors ? 4 : 0) + (definition.varies_in_strength() ? 4 : 0) + (definition.cuts() ? 4 : 0) +
                  (plain ? 17 * lattice::slot_count : 0) + 8 * inertias + 16 * components;
   const bool orients = std::count(definition.output.fields.begin(), definition.output.fields.end(), "orientation") != 0;
-  const double sample = sample_bytes(definition) * count;
+  const double sample = sample_bytes(definition) * count + surface_bytes(definition, grid);
   if (definition.analysis.type == AnalysisDefinition::Type::modes) {
     // Vectors, steps and search directions, each with its image, and a few more (modes/eigen_search.h); shapes come
     // when steps and directions are no longer needed, but before their memory is free.

@@ -118,7 +118,10 @@ Model make_model(const Definition& definition, const Communicator& communicator)
               {},         0,
               0,          0,
               {}};
-  if (const auto fraction_of = fraction_of_cells(definition, grid)) make_fractions(model.lattice, fraction_of);
+  if (const auto fraction_of = fraction_of_cells(definition, grid)) {
+    make_fractions(model.lattice, fraction_of);
+    make_surface(model.lattice, moments_of_cells(definition, grid));
+  }
   if (const auto factor_of = factor_of_cells(definition, grid)) make_factors(model.lattice, factor_of);
   scatter_stiffness(definition, model.lattice);
   collectively(communicator, [&] { model.strength = strength_of_cells(definition, model.lattice); });

@@ -121,6 +121,10 @@ std::function<float(const Int3&)> fraction_of_cells(const Definition& definition
       [body = CutBody(definition, grid)](const Int3& cell) { return static_cast<float>(body.part_of(cell).fraction); };
 }
 
+std::function<Moments(const Int3&)> moments_of_cells(const Definition& definition, const lattice::Grid& grid) {
+  return [body = CutBody(definition, grid)](const Int3& cell) { return body.moments_of(cell); };
+}
+
 std::function<float(const Int3&)> factor_of_cells(const Definition& definition, const lattice::Grid& grid) {
   const std::vector<float>& factors = definition.body.factors;
   if (factors.empty()) return nullptr;

@@ -28,6 +28,9 @@ std::function<std::uint16_t(const Int3&)> material_of_cells(const Definition& de
 /// Part of each cell that is solid by its global indices; null where regions cut no cells. As above.
 std::function<float(const Int3&)> fraction_of_cells(const Definition& definition, const lattice::Grid& grid);
 
+/// Moments of the solid part of a cell that surfaces cut, by its global indices. As above.
+std::function<Moments(const Int3&)> moments_of_cells(const Definition& definition, const lattice::Grid& grid);
+
 /// Factor of each cell, without its fraction, by its global indices; null where the definition gives none. Errors:
 /// InputError when there is not one for each cell, or one outside 0 ... 1. The definition must outlive the function.
 std::function<float(const Int3&)> factor_of_cells(const Definition& definition, const lattice::Grid& grid);

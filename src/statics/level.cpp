@@ -76,14 +76,16 @@ RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& fin
   return result;
 }
 
-Level::Level(LevelGrid grid, int components, const RowField<float>& constants, FixedNodes fixed)
+Level::Level(LevelGrid grid, int components, const RowField<float>& constants, FixedNodes fixed, SurfaceTerms* surface)
     : b(grid.owned(), components),
       x(grid.owned(), components),
       grid_(std::move(grid)),
       components_(components),
       fixed_(std::move(fixed)),
       springs_(constants),
-      blocks_(springs_, fixed_, components),
+      blocks_(springs_, fixed_, components,
+              surface != nullptr ? surface->node_blocks() : std::vector<mechanics::CutForces::NodeBlock>{}),
+      surface_(surface),
       y_(grid_.owned(), components),
       sweep_(components, grid_.owned()[0], grid_.owned()[1], cells_below(grid_), 1, cache),
       line_({grid_.owned()[0] + 1, 0, 0}, 1) {
@@ -130,9 +132,12 @@ void Level::for_each_row(F&& use) {
     last_i = i;
     return to;
   };
+  const mechanics::NodeValues<float> values{x.row(0, 0), x.pitch(), x.row(1, 0) - x.row(0, 0),
+                                            x.row(0, 1) - x.row(0, 0)};
+  const mechanics::Rows rows{0, owned[1], 0, owned[2]};
+  if (surface_ != nullptr) surface_->update(values, rows);
   sweep_.run(
-      {x.row(0, 0), x.pitch(), x.row(1, 0) - x.row(0, 0), x.row(0, 1) - x.row(0, 0)}, {0, owned[1], 0, owned[2]},
-      constants,
+      values, rows, constants,
       [&](std::int64_t i, std::int64_t j, std::int64_t k, std::int64_t nodes) {
         if (blocks_.row(j, k) == nullptr) return;
         b.fetch(i, j, k, nodes);
@@ -141,6 +146,7 @@ void Level::for_each_row(F&& use) {
       [&](std::int64_t j, std::int64_t k, float* const* force) {
         if (blocks_.row(j, k) == nullptr) return;
         add_springs(j, k, force);
+        if (surface_ != nullptr) surface_->add(j, k, force);
         use(j, k, relax_row(j, k, force[0]));
       },
       [](std::int64_t, std::int64_t) {});
@@ -165,6 +171,41 @@ void Level::relax(int degree, double bound, bool from_zero) {
     }
     std::swap(x, y_);
   }
+}
+
+double Level::stretch(int steps) {
+  // Without symmetry, and the same on any ranks.
+  const Int3& n = grid_.owned();
+  const auto each = [&](RowField<float>& field, auto&& f) {
+    for (std::int64_t k = 0; k < n[2]; ++k)
+      for (std::int64_t j = 0; j < n[1]; ++j)
+        for (int c = 0; c < components_; ++c)
+          for (std::int64_t i = 0; i < n[0]; ++i) f(field.row(j, k)[c * field.pitch() + i], Int3{i, j, k}, c);
+  };
+  b.zero();
+  each(x, [&](float& value, const Int3& node, int c) {
+    const Int3 g = grid_.halo->layout().global(node);
+    auto h = static_cast<std::uint64_t>(c + 6 * (g[0] + 1000003 * (g[1] + 1000003 * g[2]))) + 0x9e3779b97f4a7c15ULL;
+    h = (h ^ h >> 30) * 0xbf58476d1ce4e5b9ULL;
+    h = (h ^ h >> 27) * 0x94d049bb133111ebULL;
+    value = static_cast<float>((h ^ h >> 31) >> 40) * 0x1p-23f - 1;
+  });
+  double grown = 0;
+  for (int step = 0; step < steps; ++step) {
+    // y = B K x.
+    for_each_row([&](std::int64_t, std::int64_t, const mechanics::RelaxRow& row) {
+      mechanics::relax_kernels().relax(row, components_, 0, 0, -1);
+    });
+    float largest = 0;
+    each(y_, [&](float& value, const Int3&, int) { largest = std::max(largest, std::abs(value)); });
+    grown = grid_.halo->communicator().max(static_cast<double>(largest));
+    if (!(grown > 0)) break;
+    each(y_, [&](float& value, const Int3&, int) { value = static_cast<float>(value / grown); });
+    std::swap(x, y_);
+  }
+  x.zero();
+  y_.zero();
+  return grown;
 }
 
 // A node on a coarse one gives all it has to that one, also beyond the border of an odd period.

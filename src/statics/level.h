@@ -11,6 +11,7 @@
 #include "statics/fixed_nodes.h"
 #include "statics/node_blocks.h"
 #include "statics/spring_rows.h"
+#include "statics/surface_terms.h"
 
 namespace koshi::statics {
 
@@ -42,11 +43,15 @@ RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& fin
 /// zero; all functions are collective.
 class Level {
  public:
-  Level(LevelGrid grid, int components, const RowField<float>& constants, FixedNodes fixed);
+  /// `surface`: what cells at surfaces add, on the finest level; must outlive it.
+  Level(LevelGrid grid, int components, const RowField<float>& constants, FixedNodes fixed,
+        SurfaceTerms* surface = nullptr);
 
   /// x += polynomial(B K) B (b - K x): `degree` steps of Chebyshev's iteration of the fourth kind for eigenvalues of
   /// B K up to `bound` (J. Lottes, doi:10.1002/nla.2535), which needs no lower bound. `from_zero`: x is taken as zero.
   void relax(int degree, double bound, bool from_zero);
+  /// The largest eigenvalue of B K, from below within some per cent: by how much `steps` applications stretch a vector.
+  double stretch(int steps);
   /// Right-hand side of the next coarser level: its b = P^T (b - K x), P the trilinear interpolation of all components
   /// (rho = (d/2) w halves from a level to the next finer one).
   void restrict_residual(Level& coarse);
@@ -77,6 +82,7 @@ class Level {
   std::vector<std::size_t> sprung_of_row_;  ///< the first of each row, and the end; empty: none anywhere
   SpringRows springs_;
   NodeBlocks blocks_;
+  SurfaceTerms* surface_;
   RowField<float> y_;
   mechanics::CellSweep<float> sweep_;
   RowField<float> line_;  ///< one component of a row, for transfers

@@ -114,14 +114,18 @@ Hierarchy::Hierarchy(const LevelGrid& grid, int components, const RowField<float
                      const CycleOptions& options)
     : options_(options) {
   options_.serial = options.serial || grid.halo->communicator().size() == 1;
-  levels_.push_back(std::make_unique<Level>(grid, components, constants, fixed));
+  levels_.push_back(std::make_unique<Level>(grid, components, constants, fixed, options.surface));
+  // What cells at surfaces add is known to the finest level alone, so that one is relaxed however small it is.
+  bool relaxed = options.surface == nullptr;
+  options_.surface = nullptr;
   RowField<float> merged;
   const RowField<float>* last = &constants;
   while (true) {
     const LevelGrid& fine = levels_.back()->grid();
     const std::int64_t nodes = fine.grid.node_count();
     const bool small = options_.serial ? nodes * components <= direct_unknowns : nodes <= gathered_nodes;
-    if (small || !fine.can_coarsen()) break;
+    if ((small && relaxed) || !fine.can_coarsen()) break;
+    relaxed = true;
     const LevelGrid coarse = fine.coarsened();
     merged = coarsened(*last, fine, coarse);
     last = &merged;

@@ -16,10 +16,11 @@
 namespace koshi::statics {
 
 struct CycleOptions {
-  int degree = 3;       ///< of the relaxation, before and after the coarser level
-  double bound = 0;     ///< of the relaxation, relaxation_bound()
-  double shift = 0;     ///< of the coarsest level, CoarseSolver
-  bool serial = false;  ///< one rank only
+  int degree = 3;                   ///< of the relaxation, before and after the coarser level
+  double bound = 0;                 ///< of the relaxation, relaxation_bound()
+  double shift = 0;                 ///< of the coarsest level, CoarseSolver
+  bool serial = false;              ///< one rank only
+  SurfaceTerms* surface = nullptr;  ///< what cells at surfaces add, on the finest level
 };
 
 /// Levels from a given one down to a direct solve. Once a level is small, or its cells cannot be merged within the

@@ -16,6 +16,9 @@ using mechanics::cell_constants;
 /// A node's block, without memory of its own on the heap.
 using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
 
+/// What a node's block has beside that of the springs.
+using More = mechanics::CutForces::NodeBlock;
+
 /// The four rows of cells around a row of nodes: r = 0 ... 3 for (j, k), (j-1, k), (j, k-1), (j-1, k-1).
 using CellRows = std::array<std::int32_t, 4>;
 
@@ -37,9 +40,12 @@ class BlockMaker {
   }
 
   /// Inverse block of node i.
-  Block inverse(const CellRows& rows, std::int64_t i, const FixedNode& held) const {
+  Block inverse(const CellRows& rows, std::int64_t i, const FixedNode& held, const More* more) const {
     const std::uint8_t fixed = held.mask;
     Block K = Block::Zero(components_, components_);
+    if (more != nullptr)
+      for (int p = 0; p < components_; ++p)
+        for (int q = 0; q < components_; ++q) K(p, q) = more->stiffness[static_cast<std::size_t>(6 * p + q)];
     for (int corner = 0; corner < 8; ++corner)
       for (int q = 0; q < cell_constants; ++q)
         if (const float k = constant(rows, i, corner, q); k != 0) K += k * corner_[q][corner];
@@ -84,17 +90,21 @@ struct Group {
   CellRows rows;
   std::int64_t first, last;
   std::array<FixedNode, block_width> held;
+  const More* more;  ///< of its nodes, as many as `more_count`
+  std::int64_t more_count;
 };
 
 }  // namespace
 
-NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int components)
+NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int components,
+                       const std::vector<More>& more)
     : owned_y_(springs.owned()[1]), groups_per_row_((springs.owned()[0] + block_width - 1) / block_width) {
   const Int3& owned = springs.owned();
   const BlockMaker maker(springs, components);
   std::unordered_map<std::string, std::int32_t> known;
   std::vector<Group> distinct;
   auto next_fixed = fixed.begin();
+  auto next_more = more.begin();
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j) {
       const CellRows rows{springs.row(j, k), springs.row(j - 1, k), springs.row(j, k - 1), springs.row(j - 1, k - 1)};
@@ -103,7 +113,11 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
       empty_.push_back(empty);
       for (std::int64_t first = 0; first < owned[0]; first += block_width) {
         const std::int64_t last = std::min(first + block_width, owned[0]);
-        Group group{rows, first, last, {}};
+        Group group{rows, first, last, {}, more.data() + (next_more - more.begin()), 0};
+        for (;
+             next_more != more.end() && next_more->node[2] == k && next_more->node[1] == j && next_more->node[0] < last;
+             ++next_more)
+          ++group.more_count;
         bool any_fixed = false;
         for (; next_fixed != fixed.end() && next_fixed->node[2] == k && next_fixed->node[1] == j &&
                next_fixed->node[0] < last;
@@ -113,6 +127,11 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
         }
         if (empty) {
           groups_.push_back(0);
+          continue;
+        }
+        if (group.more_count > 0) {
+          groups_.push_back(static_cast<std::int32_t>(distinct.size()));
+          distinct.push_back(group);
           continue;
         }
         std::string key(reinterpret_cast<const char*>(rows.data()), sizeof rows);
@@ -125,7 +144,7 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
         if (is_new && !any_fixed && maker.is_uniform(rows, first, last)) {
           // By symmetry the block is a multiple of one for displacements and for rotations.
           entry->second = ~static_cast<std::int32_t>(uniform_.size() / 2);
-          const Block B = maker.inverse(rows, first, {});
+          const Block B = maker.inverse(rows, first, {}, nullptr);
           uniform_.push_back(static_cast<float>(B(0, 0)));
           uniform_.push_back(static_cast<float>(B(components - 1, components - 1)));
         } else if (is_new) {
@@ -141,9 +160,12 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
   blocks_.resize(distinct.size() * set);
   for (std::size_t g = 0; g < distinct.size(); ++g) {
     const Group& group = distinct[g];
+    const More* of_node = group.more;
     for (std::int64_t i = group.first; i < group.last; ++i) {
+      const bool has = of_node != group.more + group.more_count && of_node->node[0] == i;
+      const More* const beside = has ? of_node++ : nullptr;
       if (maker.is_empty(group.rows, i)) continue;
-      const Block B = maker.inverse(group.rows, i, group.held[static_cast<std::size_t>(i - group.first)]);
+      const Block B = maker.inverse(group.rows, i, group.held[static_cast<std::size_t>(i - group.first)], beside);
       float* to = blocks_.data() + g * set + (i - group.first);
       for (int a = 0; a < components; ++a)
         for (int b = 0; b <= a; ++b, to += block_width) *to = static_cast<float>(B(a, b));

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "mechanics/cut_forces.h"
 #include "mechanics/relax_rows.h"
 #include "statics/fixed_nodes.h"
 #include "statics/spring_rows.h"
@@ -16,8 +17,10 @@ namespace koshi::statics {
 /// numbers.
 class NodeBlocks {
  public:
-  /// Springs hold every corner of a cell (relaxation_bound() has checked them).
-  NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int components);
+  /// Springs hold every corner of a cell (relaxation_bound() has checked them). `more`: what blocks have beside that of
+  /// the springs, in memory's order.
+  NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int components,
+             const std::vector<mechanics::CutForces::NodeBlock>& more = {});
 
   /// Blocks of row (j, k) for RelaxRow; null when the row has no node with a cell.
   const std::int32_t* row(std::int64_t j, std::int64_t k) const {

@@ -21,6 +21,7 @@ std::vector<CellConstants> preconditioner_constants(const model::SpringLattice& 
   return by_material;
 }
 
+// The largest constant: over it all are about 1, and single precision serves any unit.
 double largest_of(const std::vector<CellConstants>& by_material) {
   double largest = 0;
   for (const CellConstants& constants : by_material)
@@ -28,9 +29,9 @@ double largest_of(const std::vector<CellConstants>& by_material) {
   return largest;
 }
 
-// Constants of all cells, scaled so that the stiffest is 1: single precision then serves any unit.
-RowField<float> fine_constants(const model::SpringLattice& body, const std::vector<CellConstants>& by_material) {
-  const double largest = largest_of(by_material);
+// Constants of all cells.
+RowField<float> fine_constants(const model::SpringLattice& body, const std::vector<CellConstants>& by_material,
+                               double largest) {
   RowField<float> constants(body.layout.owned(), mechanics::cell_constants);
   const std::uint16_t* const cell = body.cell.component(0);
   lattice::for_each(body.layout, {-1, -1, -1}, body.layout.owned(), [&](auto i, auto j, auto k, auto n) {
@@ -85,11 +86,22 @@ Preconditioner::Preconditioner(const model::Model& model, const FixedNodes& fixe
   for (std::size_t m = 1; m < by_material.size(); ++m)
     options.bound = std::max(options.bound, relaxation_bound(by_material[m], components_));
   options.shift = free.count() > 0 ? 1e-8 : 0;
+  const double largest = largest_of(by_material);
+  const LevelGrid grid{body.grid, body.partition, body.halo};
+  const RowField<float> constants = fine_constants(body, by_material, largest);
+  const FixedNodes held = held_nodes(body, fixed, largest);
+  if (body.fraction.components() != 0) {
+    surface_ = std::make_unique<SurfaceTerms>(body, 1 / largest);
+    options.surface = surface_.get();
+    // A cell's own bound would be far too high where little of it is inside.
+    constexpr int steps = 40;
+    constexpr double margin = 1.1;
+    const double stretch = Level(grid, components_, constants, held, surface_.get()).stretch(steps);
+    options.bound = std::max(options.bound, margin * stretch);
+  }
   // Nearly incompressible springs have a wide spectrum that the relaxation must cover.
   options.degree = options.bound < 4 ? 3 : options.bound < 6 ? 4 : 5;
-  hierarchy_ = std::make_unique<Hierarchy>(LevelGrid{body.grid, body.partition, body.halo}, components_,
-                                           fine_constants(body, by_material),
-                                           held_nodes(body, fixed, largest_of(by_material)), options);
+  hierarchy_ = std::make_unique<Hierarchy>(grid, components_, constants, held, options);
 }
 
 template <class T, class F>

@@ -23,6 +23,7 @@ class Preconditioner {
 
   int components_;
   const FreeMotions& free_;
+  std::unique_ptr<SurfaceTerms> surface_;
   std::unique_ptr<Hierarchy> hierarchy_;
 };
 
