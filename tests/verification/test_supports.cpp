@@ -77,7 +77,7 @@ struct Ended {
 };
 
 // In uniform strain the surface stays where it is, wherever it cuts a cell: the spring gives way as the layer of
-// material would that it leaves out (15.3). The upper face moves by t L/M, L the length of the column, M the modulus of
+// material would that it leaves out (15.5). The upper face moves by t L/M, L the length of the column, M the modulus of
 // the wave that strains so.
 TEST(Supports, HoldAFlatSurfaceAtItsPlace) {
   int checked = 0;
