@@ -101,6 +101,9 @@ Preconditioner::Preconditioner(const model::Model& model, const FixedNodes& fixe
   }
   // Nearly incompressible springs have a wide spectrum that the relaxation must cover.
   options.degree = options.bound < 4 ? 3 : options.bound < 6 ? 4 : 5;
+  // A body of a few cells across bends at little cost, and coarse cells take it for stiffer than it is.
+  constexpr std::int64_t thin = 3;
+  if (*std::ranges::min_element(body.grid.cells) <= thin) options.degree = 5;
   hierarchy_ = std::make_unique<Hierarchy>(grid, components_, constants, held, options);
 }
 

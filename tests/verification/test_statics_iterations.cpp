@@ -7,6 +7,7 @@
 
 #include "koshi/statics.h"
 #include "support/cantilever.h"
+#include "support/cases.h"
 
 namespace koshi {
 namespace {
@@ -50,6 +51,22 @@ TEST(Iterations, Cantilever) {
   expect_iterations(beam(CellType::cube_ii, Sharing::shared, rotational, 0.18), 12);
   expect_iterations(beam(CellType::cube_ii, Sharing::plain, rotational, 0.18), 25);
   expect_iterations(beam(CellType::cube_i, Sharing::shared, fit, 0.18), 25);
+}
+
+// A plate of two cells, clamped along its edges and pressed on from above.
+TEST(Iterations, ThinPlate) {
+  model::Definition definition = test::block({60, 60, 2}, 0.001, {25e9, 0.3, 2000});
+  definition.analysis = {};
+  definition.boundaries.clear();
+  for (const model::Face face : {model::Face::x_min, model::Face::x_max, model::Face::y_min, model::Face::y_max})
+    definition.boundaries.push_back(
+        test::fixed("edge " + std::to_string(static_cast<int>(face)), face, {0, 1, 2, 3, 4, 5}));
+  model::LoadDefinition wind;
+  wind.name = "wind";
+  wind.selection.face = model::Face::z_max;
+  wind.pressure = 1e3;
+  definition.loads = {wind};
+  expect_iterations(definition, 25);
 }
 
 TEST(Iterations, NearlyIncompressible) {
