@@ -16,6 +16,11 @@
 #include "mechanics/measure.h"
 #include "mechanics/stable_step.h"
 
+namespace koshi::failure {
+class ClosedFaces;
+class Cracking;
+}  // namespace koshi::failure
+
 namespace koshi::driver {
 
 /// How an analysis went.
@@ -100,6 +105,10 @@ class Simulation {
   Outcome run_events(const Observer& observer, const std::vector<std::string>& petsc_options);
   Outcome run_load_steps(const Observer& observer, const std::vector<std::string>& petsc_options);
   double work_of_supports();
+  // What both of these begin with, and measure.
+  failure::Cracking& restored_cracking();
+  statics::StaticOptions crack_options(const Observer& observer, const std::vector<std::string>& petsc_options) const;
+  mechanics::Measurement measure_cracked(const failure::ClosedFaces& faces);
   Outcome run_modes(const Observer& observer);
   Outcome run_explicit(const Observer& observer);
   double choose_step(const mechanics::StableStep& stable) const;

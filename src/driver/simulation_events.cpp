@@ -77,19 +77,39 @@ double Simulation::work_of_supports() {
   return sum.value();
 }
 
-Outcome Simulation::run_events(const Observer& observer, const std::vector<std::string>& petsc_options) {
-  const model::Definition& definition = model_->definition;
-  statics::StaticOptions options;
-  options.tolerance = definition.analysis.tolerance;
-  options.petsc_options = petsc_options;
-  options.progress = [&](int, double) {
-    if (observer.breathe) observer.breathe();
-  };
-
-  // The state is that of the unit load between events, when equilibria are sought, and of the event's load at them.
+failure::Cracking& Simulation::restored_cracking() {
   // Bonds break in motion only, as the check of the definition has it.
   auto& cracking = dynamic_cast<failure::Cracking&>(*fracturing());
   cracking.restore();
+  return cracking;
+}
+
+statics::StaticOptions Simulation::crack_options(const Observer& observer,
+                                                 const std::vector<std::string>& petsc_options) const {
+  statics::StaticOptions options;
+  options.tolerance = model_->definition.analysis.tolerance;
+  options.petsc_options = petsc_options;
+  options.progress = [&observer](int, double) {
+    if (observer.breathe) observer.breathe();
+  };
+  return options;
+}
+
+mechanics::Measurement Simulation::measure_cracked(const failure::ClosedFaces& faces) {
+  mechanics::Measurement measurement = meter_->measure(*state_, 0);
+  const double pressed = faces.energy();
+  measurement.balance.elastic_energy += pressed;
+  measurement.balance.leapfrog_energy += pressed;
+  measurement.balance.cracked = fracturing()->energy_taken();
+  return measurement;
+}
+
+Outcome Simulation::run_events(const Observer& observer, const std::vector<std::string>& petsc_options) {
+  const model::Definition& definition = model_->definition;
+  const statics::StaticOptions options = crack_options(observer, petsc_options);
+
+  // The state is that of the unit load between events, when equilibria are sought, and of the event's load at them.
+  failure::Cracking& cracking = restored_cracking();
   failure::CrackEvents events(cracking, *model_, *state_);
   const double end = statics::end_time(definition);
   LoadFactor loads(*model_, end);
@@ -99,15 +119,11 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
   CrackPath& path = outcome.path.emplace();
   PathWork balance;
   const auto sample = [&](double factor) {
-    outcome.measurement = meter_->measure(*state_, 0);
+    outcome.measurement = measure_cracked(events.faces());
     mechanics::Balance& measured = outcome.measurement.balance;
-    const double pressed = events.faces().energy();
-    measured.elastic_energy += pressed;
-    measured.leapfrog_energy += pressed;
     if (factor > 0) balance.add(factor, measured.elastic_energy, work_of_supports(), events.faces().bend());
     measured.load_factor = factor;
     measured.given = balance.work();
-    measured.cracked = cracking.energy_taken();
     state_->time = static_cast<double>(path.events);
     if (observer.history) observer.history(outcome.measurement, *state_);
   };

@@ -24,16 +24,9 @@ Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<s
   const model::Definition& definition = model_->definition;
   const int count = *definition.analysis.steps;
   const double duration = statics::end_time(definition);
-  statics::StaticOptions options;
-  options.tolerance = definition.analysis.tolerance;
-  options.petsc_options = petsc_options;
-  options.progress = [&](int, double) {
-    if (observer.breathe) observer.breathe();
-  };
+  const statics::StaticOptions options = crack_options(observer, petsc_options);
 
-  // Bonds break in motion only, as the check of the definition has it.
-  auto& cracking = dynamic_cast<failure::Cracking&>(*fracturing());
-  cracking.restore();
+  failure::Cracking& cracking = restored_cracking();
   state_->displacement.zero();
   failure::CrackSteps cracks(cracking, *model_, *state_);
   CrackedEquilibrium equilibrium(*model_, *state_, cracks.faces(), duration, options);
@@ -42,13 +35,8 @@ Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<s
   Outcome outcome;
   CrackPath& path = outcome.path.emplace();
   const auto sample = [&](double given) {
-    outcome.measurement = meter_->measure(*state_, 0);
-    mechanics::Balance& measured = outcome.measurement.balance;
-    const double pressed = cracks.faces().energy();
-    measured.elastic_energy += pressed;
-    measured.leapfrog_energy += pressed;
-    measured.given = given;
-    measured.cracked = cracking.energy_taken();
+    outcome.measurement = measure_cracked(cracks.faces());
+    outcome.measurement.balance.given = given;
     if (observer.history) observer.history(outcome.measurement, *state_);
   };
 

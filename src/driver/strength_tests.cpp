@@ -20,10 +20,9 @@ constexpr std::int64_t side = 2;  // cells of the block along an axis
 // Strain of the stress `axial` along n with free sides.
 Tensor6 uniaxial(const material::Elastic& elastic, double axial, const Vec3& n) {
   const double E = elastic.youngs_modulus, nu = elastic.poissons_ratio;
-  constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   Tensor6 strain;
   for (std::size_t v = 0; v < 6; ++v) {
-    const auto [i, j] = pairs[v];
+    const auto [i, j] = tensor_axes[v];
     strain[v] = axial / E * ((1 + nu) * n[i] * n[j] - (i == j ? nu : 0));
   }
   return strain;

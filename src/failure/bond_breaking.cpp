@@ -8,12 +8,10 @@
 #include "failure/principal.h"
 #include "lattice/halo.h"
 #include "mechanics/bond_law.h"
+#include "mechanics/corners.h"
 
 namespace koshi::failure {
 namespace {
-
-// Bonds are looked at a little below their limit, so that how the first look was rounded does not matter.
-constexpr double margin = 1 - 1e-5;
 
 using mechanics::cell_bonds;
 
@@ -68,25 +66,17 @@ BondBreaking::BondBreaking(model::Model& model, model::State& state)
   stretch_.resize(static_cast<std::size_t>(layout.owned()[0]));
   shear_.resize(stretch_.size());
   breakable_.resize(static_cast<std::size_t>(layout.owned()[1] * layout.owned()[2]), 0);
-  touched_.resize(breakable_.size(), 0);
   std::size_t breakable = 0;
   lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto, auto, auto n) {
     if (!breaks_here(n)) return;
     ++breakable;
-    note(n);
+    mechanics::mark_rows(layout, n, breakable_);
     const BondLimits& limits = *limits_[body.cell.component(0)[n]];
     least_.stretch = std::min(least_.stretch, limits.stretch * model.strength_of(n));
     least_.shear = std::min(least_.shear, limits.shear * model.strength_of(n));
   });
-  breakable_.swap(touched_);
   cracked_.reserve(breakable);
   restore();
-}
-
-Int3 BondBreaking::place(std::int64_t n) const {
-  const lattice::Layout& layout = model_.layout();
-  const std::int64_t k = n / layout.plane() - 1, j = n % layout.plane() / layout.pitch() - 1;
-  return {n - layout.index(0, j, k), j, k};
 }
 
 void BondBreaking::restore() {
@@ -100,11 +90,11 @@ void BondBreaking::restore() {
   });
   clear_forces();
   cracked_.clear();
-  std::ranges::fill(touched_, 0);
+  forces_.forget();
   lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto, auto, auto n) {
     if (!breaks_here(n) || broken_now(n) == 0) return;
     cracked_.push_back(n);
-    note(n);
+    forces_.reach(n);
     describe(n);
   });
   add_up_forces();
@@ -224,7 +214,7 @@ void BondBreaking::take_over_ghosts() {
 
 // The cells around a bond that has broken join those with broken bonds.
 void BondBreaking::mark_cells(std::int64_t n, int slot) {
-  const Int3 node = place(n);
+  const Int3 node = model_.layout().place(n);
   for (const Int3& from : around_[static_cast<std::size_t>(slot)]) {
     Int3 at{};
     bool followed = true;
@@ -239,7 +229,7 @@ void BondBreaking::mark_cells(std::int64_t n, int slot) {
     if (state_.crack.component(kappa)[cell] != 0) continue;
     state_.crack.component(kappa)[cell] = 1;
     cracked_.push_back(cell);
-    note(cell);
+    forces_.reach(cell);
   }
 }
 
@@ -248,7 +238,7 @@ template <class F>
 std::uint32_t BondBreaking::of_cell(F&& of_node, std::int64_t n) const {
   std::array<unsigned, 8> masks;
   for (int a = 0; a < 8; ++a)
-    masks[static_cast<std::size_t>(a)] = of_node(n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2}));
+    masks[static_cast<std::size_t>(a)] = of_node(n + model_.layout().offset(mechanics::corner(a)));
   std::uint32_t result = 0;
   for (std::size_t b = 0; b < cell_bonds.size(); ++b)
     result |= (masks[static_cast<std::size_t>(cell_bonds[b].a)] >> cell_bonds[b].slot & 1) << b;
@@ -291,28 +281,17 @@ void BondBreaking::describe(std::int64_t n) {
   for (std::size_t b = 0; b < cell_bonds.size(); ++b) {
     if ((gone >> b & 1) == 0) continue;
     const auto& [s, family] = lattice::slots[static_cast<std::size_t>(cell_bonds[b].slot)];
-    constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
     for (std::size_t v = 0; v < 6; ++v)
-      spread[v] += static_cast<double>(s[pairs[v][0]] * s[pairs[v][1]]) / lattice::squared_length[family];
+      spread[v] += static_cast<double>(s[tensor_axes[v][0]] * s[tensor_axes[v][1]]) / lattice::squared_length[family];
   }
   const Vec3 across = principal(spread).direction[0];
   for (int a = 0; a < 3; ++a) state_.crack.component(normal + a)[n] = across[static_cast<std::size_t>(a)];
 }
 
-// Marks the rows of nodes that get forces from a cell.
-void BondBreaking::note(std::int64_t n) {
-  const Int3 at = place(n), &owned = model_.layout().owned();
-  for (int row = 0; row < 4; ++row) {
-    const std::int64_t j = at[1] + (row & 1), k = at[2] + (row >> 1);
-    if (j < 0 || k < 0 || j >= owned[1] || k >= owned[2]) continue;
-    touched_[static_cast<std::size_t>(j + owned[1] * k)] = 1;
-  }
-}
-
 void BondBreaking::make_lattice_follow() {
   for (const std::int64_t n : cracked_)
     for (int a = 0; a < 8; ++a) {
-      const std::int64_t node = n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2});
+      const std::int64_t node = n + model_.layout().offset(mechanics::corner(a));
       model_.lattice.broken.component(0)[node] = bits(state_.bonds.component(0)[node]);
     }
 }

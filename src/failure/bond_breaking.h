@@ -23,14 +23,11 @@ class BondBreaking : public Fracturing {
 
   void restore() override;
   void follow(double dt) override;
-  void add_forces(std::int64_t j, std::int64_t k, double* const* force) const override;
 
   /// Bonds that are broken (collective).
   std::int64_t count() const;
 
  private:
-  /// Indices of a node, or of a cell by its lowest corner.
-  Int3 place(std::int64_t n) const;
   bool breaks_here(std::int64_t n) const { return limits_[model_.lattice.cell.component(0)[n]].has_value(); }
 
   // Which bonds break.
@@ -48,7 +45,6 @@ class BondBreaking : public Fracturing {
   std::uint32_t broken_now(std::int64_t n, int component = 0) const;
   void break_in_cell(std::int64_t n, std::uint32_t fresh, double dt);
   void describe(std::int64_t n);
-  void note(std::int64_t n);
   void make_lattice_follow();
 
   // Forces and energies (bond_forces.cpp).
@@ -68,7 +64,6 @@ class BondBreaking : public Fracturing {
   BondLimits least_;                     ///< of all bonds
   std::vector<char> breakable_;          ///< rows of owned nodes with bonds that can break
   std::vector<std::int64_t> cracked_;    ///< cells with broken bonds, ascending
-  std::vector<char> touched_;            ///< rows of owned nodes next to such a cell
   bool news_ = false;                    ///< a bond has broken in this step
 };
 

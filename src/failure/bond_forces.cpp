@@ -4,6 +4,7 @@
 
 #include "failure/bond_breaking.h"
 #include "mechanics/bond_law.h"
+#include "mechanics/corners.h"
 
 namespace koshi::failure {
 namespace {
@@ -75,10 +76,7 @@ double BondBreaking::stored_energy(std::int64_t n) const {
 }
 
 void BondBreaking::clear_forces() {
-  for (const std::int64_t n : cracked_)
-    for (int a = 0; a < 8; ++a)
-      for (int c = 0; c < model_.components(); ++c)
-        state_.face_force.component(c)[n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2})] = 0;
+  for (const std::int64_t n : cracked_) forces_.clear(n);
 }
 
 // A whole bond would act as -F on its first node, F on its second, and M on both.
@@ -97,21 +95,13 @@ void BondBreaking::add_up_forces() {
     });
     for (int a = 0; a < 8; ++a) {
       const auto corner = static_cast<std::size_t>(a);
-      const std::int64_t node = n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2});
+      const std::int64_t node = n + model_.layout().offset(mechanics::corner(a));
       for (int c = 0; c < 3; ++c) {
         state_.face_force.component(c)[node] += force[corner][static_cast<std::size_t>(c)];
         state_.face_force.component(3 + c)[node] += turning[corner][static_cast<std::size_t>(c)];
       }
     }
   }
-}
-
-void BondBreaking::add_forces(std::int64_t j, std::int64_t k, double* const* force) const {
-  const lattice::Layout& layout = model_.layout();
-  if (touched_[static_cast<std::size_t>(j + layout.owned()[1] * k)] == 0) return;
-  const std::int64_t n = layout.index(0, j, k);
-  for (int c = 0; c < model_.components(); ++c)
-    for (std::int64_t i = 0; i < layout.owned()[0]; ++i) force[c][i] += state_.face_force.component(c)[n + i];
 }
 
 }  // namespace koshi::failure

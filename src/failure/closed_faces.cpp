@@ -28,11 +28,7 @@ bool ClosedFaces::is_closed(std::int64_t n) const {
   return at != springs.end() && at->cell == n;
 }
 
-bool ClosedFaces::is_owned(std::int64_t n) const {
-  const lattice::Layout& layout = model_.layout();
-  const std::int64_t k = n / layout.plane() - 1, j = n % layout.plane() / layout.pitch() - 1;
-  return k >= 0 && j >= 0 && n >= layout.index(0, j, k);
-}
+bool ClosedFaces::is_owned(std::int64_t n) const { return model_.layout().owns(model_.layout().place(n)); }
 
 double ClosedFaces::pressed(std::int64_t cell) const {
   if (!is_closed(cell)) return 0;

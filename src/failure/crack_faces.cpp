@@ -35,9 +35,8 @@ FaceContact face_contact(const FaceModuli& moduli, const Vec3& n, const Vec3& sl
   contact.shear = moduli.mu * elastic;
   contact.energy = 0.5 * (normal * face.opening + dot(contact.shear, elastic));
   // t = (normal stress) n + shear acts on the plane: n x n times the first, and n x shear made symmetric.
-  constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   for (std::size_t v = 0; v < 6; ++v) {
-    const auto [i, j] = pairs[v];
+    const auto [i, j] = tensor_axes[v];
     contact.stress[v] = normal * n[i] * n[j] + contact.shear[i] * n[j] + contact.shear[j] * n[i];
   }
   return contact;

@@ -6,13 +6,6 @@
 #include "lattice/halo.h"
 
 namespace koshi::failure {
-namespace {
-
-// A cell is looked at a little below its limit, so that how the first look was rounded does not matter.
-constexpr double margin = 1 - 1e-5;
-
-}  // namespace
-
 Cracking::Cracking(model::Model& model, model::State& state)
     : Fracturing(model, state), rows_(strain_rows()), limit_(model.layout(), 1) {
   const lattice::Layout& layout = model.layout();
@@ -37,7 +30,6 @@ Cracking::Cracking(model::Model& model, model::State& state)
   breakable_.resize(cell_row(layout, layout.owned()[1], layout.owned()[2]), 0);
   reach_.resize(breakable_.size());
   moved_.resize(static_cast<std::size_t>((layout.owned()[1] + 2) * (layout.owned()[2] + 2)));
-  touched_.resize(static_cast<std::size_t>(layout.owned()[1] * layout.owned()[2]), 0);
   std::size_t breakable = 0;
   lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto j, auto k, auto n) {
     if (!laws_[model_.lattice.cell.component(0)[n]]) return;
@@ -65,7 +57,7 @@ void Cracking::restore() {
     set_factor(n, crack);
     if (crack.kappa == 0) return;
     cracked_.push_back(n);
-    note(n);
+    forces_.reach(n);
   });
   close_faces(false);
 }
@@ -148,17 +140,16 @@ void Cracking::follow(double dt) {
 void Cracking::spend_reach(double dt) {
   const lattice::Layout& layout = model_.layout();
   const Int3& owned = layout.owned();
-  for (std::int64_t k = -1, row = 0; k <= owned[2]; ++k)
-    for (std::int64_t j = -1; j <= owned[1]; ++j, ++row)
-      moved_[static_cast<std::size_t>(row)] =
-          dt * std::sqrt(rows_.largest_square(state_.velocity.component(0) + layout.index(-1, j, k),
-                                              state_.velocity.stride(), owned[0] + 2));
+  const auto moved = [&](std::int64_t j, std::int64_t k) -> double& {
+    return moved_[static_cast<std::size_t>((j + 1) + (owned[1] + 2) * (k + 1))];
+  };
+  for (std::int64_t k = -1; k <= owned[2]; ++k)
+    for (std::int64_t j = -1; j <= owned[1]; ++j)
+      moved(j, k) = dt * std::sqrt(rows_.largest_square(state_.velocity.component(0) + layout.index(-1, j, k),
+                                                        state_.velocity.stride(), owned[0] + 2));
   for (std::int64_t k = -1; k < owned[2]; ++k)
-    for (std::int64_t j = -1; j < owned[1]; ++j) {
-      const double* const moved = moved_.data() + (j + 1) + (owned[1] + 2) * (k + 1);
-      const double* const above = moved + owned[1] + 2;
-      reach_[cell_row(layout, j, k)] -= std::max({moved[0], moved[1], above[0], above[1]});
-    }
+    for (std::int64_t j = -1; j < owned[1]; ++j)
+      reach_[cell_row(layout, j, k)] -= std::max({moved(j, k), moved(j + 1, k), moved(j, k + 1), moved(j + 1, k + 1)});
 }
 
 void Cracking::look_at_row(std::int64_t j, std::int64_t k) {
@@ -221,7 +212,7 @@ void Cracking::crack_further(std::int64_t n, double dt) {
   set_factor(n, crack);
   if (!fresh) return;
   cracked_.push_back(n);
-  note(n);
+  forces_.reach(n);
 }
 
 }  // namespace koshi::failure

@@ -31,7 +31,6 @@ class Cracking : public Fracturing {
 
   void restore() override;
   void follow(double dt) override;
-  void add_forces(std::int64_t j, std::int64_t k, double* const* force) const override;
   void look_again() override;
 
   /// Cells that have cracked with at least this damage (collective).
@@ -61,7 +60,6 @@ class Cracking : public Fracturing {
   /// In equilibrium: broken cells keep a trace of their springs, and rows of cells pass by those that have cracked.
   void weaken(std::int64_t n, double of_damage);
   double intact_energy(std::int64_t n, double dt) const;
-  void note(std::int64_t n);
   void clear_faces();
   void close_faces(bool sliding);
 
@@ -84,7 +82,6 @@ class Cracking : public Fracturing {
   std::vector<double> moved_;  ///< of rows of nodes, (-1, -1) first: the longest way of a node in a step [m]
   std::vector<std::int64_t> cracked_;  ///< cracked cells, ascending
   std::vector<std::int64_t> pressed_;  ///< of these, those whose faces carry something
-  std::vector<char> touched_;          ///< rows of owned nodes next to a cracked cell
 };
 
 }  // namespace koshi::failure

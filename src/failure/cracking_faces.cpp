@@ -1,24 +1,11 @@
 // Forces and energies of closed crack faces.
 #include "failure/cracking.h"
+#include "mechanics/corners.h"
 
 namespace koshi::failure {
 
-// Marks the rows of nodes that may get forces from the faces of a cell.
-void Cracking::note(std::int64_t n) {
-  const lattice::Layout& layout = model_.layout();
-  const std::int64_t k = n / layout.plane() - 1, j = n % layout.plane() / layout.pitch() - 1;
-  for (int row = 0; row < 4; ++row) {
-    const std::int64_t at_j = j + (row & 1), at_k = k + (row >> 1);
-    if (at_j < 0 || at_k < 0 || at_j >= layout.owned()[1] || at_k >= layout.owned()[2]) continue;
-    touched_[static_cast<std::size_t>(at_j + layout.owned()[1] * at_k)] = 1;
-  }
-}
-
 void Cracking::clear_faces() {
-  for (const std::int64_t n : pressed_)
-    for (int a = 0; a < 8; ++a)
-      for (int c = 0; c < 3; ++c)
-        state_.face_force.component(c)[n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2})] = 0;
+  for (const std::int64_t n : pressed_) forces_.clear(n);
   pressed_.clear();
 }
 
@@ -54,18 +41,10 @@ void Cracking::close_faces(bool sliding) {
     for (int a = 0; a < 8; ++a) {
       const Vec3 s{a & 1 ? 1.0 : -1.0, a >> 1 & 1 ? 1.0 : -1.0, a >> 2 ? 1.0 : -1.0};
       const Vec3 force = (-0.25 * d * d * share(n, crack)) * times(faces.stress, s);
-      const std::int64_t node = n + model_.layout().offset({a & 1, a >> 1 & 1, a >> 2});
+      const std::int64_t node = n + model_.layout().offset(mechanics::corner(a));
       for (int c = 0; c < 3; ++c) state_.face_force.component(c)[node] += force[static_cast<std::size_t>(c)];
     }
   }
-}
-
-void Cracking::add_forces(std::int64_t j, std::int64_t k, double* const* force) const {
-  const lattice::Layout& layout = model_.layout();
-  if (touched_[static_cast<std::size_t>(j + layout.owned()[1] * k)] == 0) return;
-  const std::int64_t n = layout.index(0, j, k);
-  for (int c = 0; c < 3; ++c)
-    for (std::int64_t i = 0; i < layout.owned()[0]; ++i) force[c][i] += state_.face_force.component(c)[n + i];
 }
 
 double Cracking::stored_energy(std::int64_t n) const {

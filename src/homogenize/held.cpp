@@ -10,14 +10,12 @@
 namespace koshi::homogenize {
 namespace {
 
-constexpr std::array<std::array<std::size_t, 2>, 6> indices{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
-
 // Components held on the faces across axis `face`, a bit each. Mixed boundaries are planes of mirrors: what changes its
 // sign in the mirror is zero on it.
 unsigned held_on(Boundary boundary, std::size_t j, std::size_t face) {
   if (boundary == Boundary::displacement) return 0b111'111;
   unsigned held = 0;
-  const auto [a, b] = indices[j];
+  const auto [a, b] = tensor_axes[j];
   // The mirror keeps a mean strain, or turns the sign of a shear across it.
   const bool kept = a == b || (face != a && face != b);
   for (std::size_t c = 0; c < 3; ++c) {
@@ -79,7 +77,7 @@ void surface_forces(const model::Model& model, std::size_t j, double* right_hand
   const std::int64_t count = model.layout().owned_count();
   const double face = model.lattice.grid.d * model.lattice.grid.d;
   std::fill_n(right_hand_side, count * model.components(), 0.0);
-  const auto [a, b] = indices[j];
+  const auto [a, b] = tensor_axes[j];
   for_each_surface_node(model, [&](std::size_t axis, int sign, const Int3& node, std::int64_t, double area) {
     const std::int64_t number = node[0] + owned[0] * (node[1] + owned[1] * node[2]);
     // t_a = Sigma_ab n_b, and t_b = Sigma_ab n_a.
@@ -95,7 +93,7 @@ mechanics::Tensor6 surface_strain(const model::Model& model, const lattice::Fiel
   std::array<ExactSum, 6> sums;
   for_each_surface_node(model, [&](std::size_t axis, int sign, const Int3&, std::int64_t index, double area) {
     for (std::size_t v = 0; v < 6; ++v) {
-      const auto [a, b] = indices[v];
+      const auto [a, b] = tensor_axes[v];
       if (axis == b) sums[v] += 0.5 * sign * area * u.component(static_cast<int>(a))[index];
       if (axis == a) sums[v] += 0.5 * sign * area * u.component(static_cast<int>(b))[index];
     }

@@ -2,19 +2,13 @@
 // self-check and the dispersion relation are compared with or made from.
 #pragma once
 
-#include <array>
-
 #include <Eigen/Core>
 
 #include "koshi/lattice.h"
 #include "koshi/springs.h"
+#include "mechanics/corners.h"
 
 namespace koshi::mechanics {
-
-inline constexpr int corner_count = 8;
-
-/// Corner a = x + 2 y + 4 z of a cell, as its coordinates in cells: each 0 or 1.
-constexpr std::array<int, 3> corner(int a) { return {a & 1, a >> 1 & 1, a >> 2 & 1}; }
 
 /// Unknowns per node: ux uy uz wx wy wz, or ux uy uz.
 constexpr int components(material::Kinematics kinematics) {

@@ -4,15 +4,11 @@
 
 #include "mechanics/bond_law.h"
 #include "mechanics/cell_bonds.h"
+#include "mechanics/corners.h"
 #include "mechanics/cut_forces.h"
 
 namespace koshi::mechanics {
 namespace {
-
-constexpr std::array<std::array<int, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
-
-// Corner a of a cell, from its lowest one.
-std::array<int, 3> corner_of(int a) { return {a & 1, a >> 1 & 1, a >> 2}; }
 
 // Gradient of the fitted field, du_i/dx_j = 1/(4d) sum_s s_j u_i(s).
 using Gradient = std::array<Vec3, 3>;
@@ -24,7 +20,8 @@ void add_corner(int a, const Vec3& u, double d, Gradient& G) {
 
 Tensor6 symmetric(const Gradient& G) {
   Tensor6 strain;
-  for (int v = 0; v < 6; ++v) strain[v] = 0.5 * (G[pairs[v][0]][pairs[v][1]] + G[pairs[v][1]][pairs[v][0]]);
+  for (int v = 0; v < 6; ++v)
+    strain[v] = 0.5 * (G[tensor_axes[v][0]][tensor_axes[v][1]] + G[tensor_axes[v][1]][tensor_axes[v][0]]);
   return strain;
 }
 
@@ -33,7 +30,7 @@ Tensor6 symmetric(const Gradient& G) {
 CellMotion cell_motion(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
   CellMotion motion;
   for (int a = 0; a < 8; ++a) {
-    const std::int64_t node = cell + body.layout.offset(corner_of(a));
+    const std::int64_t node = cell + body.layout.offset(corner(a));
     for (int c = 0; c < 3; ++c) {
       motion.displacement[a][c] = u.component(c)[node];
       if (body.components() == 6) motion.rotation[a][c] = u.component(3 + c)[node];
@@ -45,7 +42,7 @@ CellMotion cell_motion(const model::SpringLattice& body, const lattice::Field<do
 Tensor6 cell_strain(const model::SpringLattice& body, const lattice::Field<double>& u, std::int64_t cell) {
   Gradient G{};
   for (int a = 0; a < 8; ++a) {
-    const std::int64_t node = cell + body.layout.offset(corner_of(a));
+    const std::int64_t node = cell + body.layout.offset(corner(a));
     add_corner(a, {u.component(0)[node], u.component(1)[node], u.component(2)[node]}, body.grid.d, G);
   }
   return symmetric(G);
@@ -64,7 +61,7 @@ CellState cell_state(const model::SpringLattice& body, const CellMotion& motion,
   // Virial of the cell's bonds.
   const double volume = d * d * d;
   for (const CellBond& bond : cell_bonds) {
-    const auto [kn, kt] = cell_part(body, bond.slot, cell + body.layout.offset(corner_of(bond.a)), cell);
+    const auto [kn, kt] = cell_part(body, bond.slot, cell + body.layout.offset(corner(bond.a)), cell);
     const auto& s = lattice::slots[bond.slot].s;
     const Vec3 D = -d * Vec3{static_cast<double>(s[0]), static_cast<double>(s[1]), static_cast<double>(s[2])};
     const Vec3 w = rotational ? 0.5 * (rotation[bond.a] + rotation[bond.b]) : state.rotation;
@@ -72,7 +69,7 @@ CellState cell_state(const model::SpringLattice& body, const CellMotion& motion,
     const Vec3 F = bond_force(kn, kt, D, r);
     state.energy += bond_energy(kn, kt, D, r) / volume;
     for (int v = 0; v < 6; ++v) {
-      const auto [i, j] = pairs[v];
+      const auto [i, j] = tensor_axes[v];
       state.stress[v] += 0.5 * (D[i] * F[j] + D[j] * F[i]) / volume;
     }
   }
@@ -86,12 +83,12 @@ CellState cell_state(const model::SpringLattice& body, const CellMotion& motion,
   if (const model::SurfaceCell* at_surface = surface_cell(body, cell)) {
     const CellMotion force = cut_forces(body, *at_surface, motion);
     for (int a = 0; a < 8; ++a) {
-      const auto corner = corner_of(a);
+      const auto at = corner(a);
       const Vec3& F = force.displacement[a];
       state.energy -= 0.5 * (dot(displacement[a], F) + dot(rotation[a], force.rotation[a])) / volume;
       for (int v = 0; v < 6; ++v) {
-        const auto [i, j] = pairs[v];
-        state.stress[v] -= 0.5 * d * (corner[i] * F[j] + corner[j] * F[i]) / volume;
+        const auto [i, j] = tensor_axes[v];
+        state.stress[v] -= 0.5 * d * (at[i] * F[j] + at[j] * F[i]) / volume;
       }
     }
   }

@@ -19,4 +19,13 @@ inline CellConstants springs_of_cell(const material::Springs& springs, double d)
           (kn[2] - kt[2]) / 12, kt[2] / 4,  springs.kappa * d / 16};
 }
 
+/// The springs of cells with d = 2 that have one of these constants equal to 1 and the others 0.
+inline constexpr std::array<material::Springs, cell_constants> unit_springs{{{{16, 0, 0}, {0, 0, 0}, 0},
+                                                                             {{0, 0, 0}, {16, 0, 0}, 0},
+                                                                             {{0, 16, 0}, {0, 0, 0}, 0},
+                                                                             {{0, 8, 0}, {0, 8, 0}, 0},
+                                                                             {{0, 0, 12}, {0, 0, 0}, 0},
+                                                                             {{0, 0, 4}, {0, 0, 4}, 0},
+                                                                             {{0, 0, 0}, {0, 0, 0}, 8}}};
+
 }  // namespace koshi::mechanics

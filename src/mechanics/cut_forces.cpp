@@ -24,8 +24,6 @@ double tie_of(double c12, double c44) { return 0.3 * c44 + 0.6 * std::max(0.0, -
 // fraction: corners that the part hardly reaches would hang loose. Uniform strain does not feel it.
 constexpr double steadying = 0.1;
 
-std::array<int, 3> corner_of(int a) { return {a & 1, a >> 1 & 1, a >> 2}; }
-
 // What the displacements of a cell give to its node rotations that turn with the cell (by least squares): Kwu + Kww W.
 Eigen::MatrixXd given_to_rotations(const material::Springs& springs, double d) {
   const Eigen::MatrixXd K = cell_matrix(springs, d, material::Kinematics::rotational);
@@ -39,8 +37,8 @@ Eigen::MatrixXd given_to_rotations(const material::Springs& springs, double d) {
     for (int b = 0; b < 8; ++b)
       for (int c = 0; c < 3; ++c) {
         const int i = (c + 1) % 3, j = (c + 2) % 3;
-        W(3 * a + c, 3 * b + j) = (2 * corner_of(b)[static_cast<std::size_t>(i)] - 1) / (8 * d);
-        W(3 * a + c, 3 * b + i) = -(2 * corner_of(b)[static_cast<std::size_t>(j)] - 1) / (8 * d);
+        W(3 * a + c, 3 * b + j) = (2 * corner(b)[static_cast<std::size_t>(i)] - 1) / (8 * d);
+        W(3 * a + c, 3 * b + i) = -(2 * corner(b)[static_cast<std::size_t>(j)] - 1) / (8 * d);
       }
   return wu + ww * W;
 }
@@ -87,18 +85,10 @@ double between(const Eigen::MatrixXd& K, int i, int p, int j, int q) {
 
 // The constants of stiffness and turn that belong to unit constants of the cell kernel, d = 2; the others zero.
 std::array<CutConstants, cell_constants> make_basis(material::Kinematics kinematics) {
-  // The springs that have one constant of springs_of_cell() equal to 1 and the others 0.
-  const std::array<material::Springs, cell_constants> unit{{{{16, 0, 0}, {0, 0, 0}, 0},
-                                                            {{0, 0, 0}, {16, 0, 0}, 0},
-                                                            {{0, 16, 0}, {0, 0, 0}, 0},
-                                                            {{0, 8, 0}, {0, 8, 0}, 0},
-                                                            {{0, 0, 12}, {0, 0, 0}, 0},
-                                                            {{0, 0, 4}, {0, 0, 4}, 0},
-                                                            {{0, 0, 0}, {0, 0, 0}, 8}}};
   std::array<CutConstants, cell_constants> basis{};
   for (std::size_t q = 0; q < basis.size(); ++q) {
     CutConstants& k = basis[q];
-    const Eigen::MatrixXd K = cell_matrix(unit[q], 2, material::Kinematics::least_squares);
+    const Eigen::MatrixXd K = cell_matrix(unit_springs[q], 2, material::Kinematics::least_squares);
     const auto in_class = [&](int P, int i, int j) { return between(K, i, P ^ 1 << i, j, P ^ 1 << j); };
     k.none = in_class(0, 0, 0);
     k.none_cross = in_class(0, 0, 1);
@@ -111,7 +101,7 @@ std::array<CutConstants, cell_constants> make_basis(material::Kinematics kinemat
     k.three = in_class(7, 0, 0);
     k.three_cross = in_class(7, 0, 1);
     if (kinematics == material::Kinematics::least_squares) continue;
-    const Eigen::MatrixXd G = given_to_rotations(unit[q], 2);
+    const Eigen::MatrixXd G = given_to_rotations(unit_springs[q], 2);
     // Modes as bits: x 1, y 2, z 4.
     k.turn_none = between(G, 0, 6, 1, 2);
     k.turn_one = between(G, 0, 7, 1, 3);
@@ -212,13 +202,12 @@ void CutForces::find_nodes() {
   // Rows of cells and nodes, as in memory.
   std::vector<std::int64_t> nodes;
   const auto each_corner = [&](const model::SurfaceCell& cell, auto&& f) {
-    const std::int64_t from = cell.cell - layout.index(-1, -1, -1), plane = from % layout.plane();
-    const Int3 low{plane % layout.pitch() - 1, plane / layout.pitch() - 1, from / layout.plane() - 1};
+    const Int3 low = layout.place(cell.cell);
     if (low_.size() < cells_.size())
       low_.push_back(
           {static_cast<std::int32_t>(low[0]), static_cast<std::int32_t>(low[1]), static_cast<std::int32_t>(low[2])});
     for (int a = 0; a < 8; ++a) {
-      const auto step = corner_of(a);
+      const auto step = corner(a);
       f(static_cast<std::size_t>(a), layout.owns({low[0] + step[0], low[1] + step[1], low[2] + step[2]}),
         cell.cell + layout.offset(step));
     }
@@ -244,8 +233,7 @@ void CutForces::find_nodes() {
           std::lower_bound(nodes.begin(), nodes.end(), layout.index(0, j, k)) - nodes.begin()));
   first_node_.push_back(static_cast<std::uint32_t>(nodes.size()));
   place_.reserve(nodes.size());
-  for (const std::int64_t node : nodes)
-    place_.push_back(static_cast<std::int32_t>((node - layout.index(0, -1, -1)) % layout.plane() % layout.pitch()));
+  for (const std::int64_t node : nodes) place_.push_back(static_cast<std::int32_t>(layout.place(node)[0]));
 }
 
 template <class T>
@@ -261,10 +249,10 @@ void CutForces::update(const NodeValues<T>& u, const Rows& rows, double turn) {
 template <class T>
 void CutForces::add_cells(const NodeValues<T>& u, double turn, std::size_t first, std::size_t last) {
   CutBlock block{};
-  std::array<std::ptrdiff_t, 8> corner;
+  std::array<std::ptrdiff_t, 8> offset;
   for (int a = 0; a < 8; ++a) {
-    const auto [x, y, z] = corner_of(a);
-    corner[static_cast<std::size_t>(a)] = x + u.row * y + u.plane * z;
+    const auto [x, y, z] = corner(a);
+    offset[static_cast<std::size_t>(a)] = x + u.row * y + u.plane * z;
   }
   for (std::size_t begin = first; begin < last; begin += cut_lanes) {
     for (std::size_t lane = 0; lane < cut_lanes; ++lane) {
@@ -276,7 +264,7 @@ void CutForces::add_cells(const NodeValues<T>& u, double turn, std::size_t first
       for (int c = 0; c < body_.components(); ++c) {
         const T* const from = u.of(i, j, k) + c * u.component;
         auto& to = c < 3 ? block.u[c] : block.w[c - 3];
-        for (std::size_t a = 0; a < 8; ++a) to[a][lane] = (c < 3 ? 1 : turn) * static_cast<double>(from[corner[a]]);
+        for (std::size_t a = 0; a < 8; ++a) to[a][lane] = (c < 3 ? 1 : turn) * static_cast<double>(from[offset[a]]);
       }
     }
     cut_kernels().forces(block, rotational_);

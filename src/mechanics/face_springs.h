@@ -5,6 +5,7 @@
 
 #include "koshi/spring_lattice.h"
 #include "koshi/vector3.h"
+#include "mechanics/corner_forces.h"
 
 namespace koshi::mechanics {
 
@@ -28,7 +29,7 @@ class FaceSprings {
   /// Forces at displacements whose ghosts are up to date.
   void update(const lattice::Field<double>& u);
   /// Adds the forces on row (j, k) of owned nodes, force[c] pointing to node i = 0.
-  void add(std::int64_t j, std::int64_t k, double* const* force) const;
+  void add(std::int64_t j, std::int64_t k, double* const* force) const { forces_.add(j, k, force); }
 
  private:
   void clear();
@@ -36,7 +37,7 @@ class FaceSprings {
   const model::SpringLattice& body_;
   lattice::Field<double>& force_;
   std::vector<FaceSpring> springs_;
-  std::vector<char> touched_;  ///< rows of owned nodes that a spring reaches
+  CornerForces forces_;  ///< of the same memory
 };
 
 /// n.eps.n of the strain of a cell.

@@ -3,13 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "mechanics/corners.h"
+
 namespace koshi::mechanics {
-namespace {
-
-std::array<int, 3> corner_of(int a) { return {a & 1, a >> 1 & 1, a >> 2}; }
-
-}  // namespace
-
 GroundForces::GroundForces(const model::SpringLattice& lattice)
     : lattice_(lattice), tension_(lattice.ground.size(), 0) {
   if (lattice.ground.empty()) return;
@@ -19,8 +15,8 @@ GroundForces::GroundForces(const model::SpringLattice& lattice)
     const model::GroundSpring& spring = lattice.ground[s];
     const Int3 cell = lattice.layout.place(spring.cell);
     for (int a = 0; a < 8; ++a) {
-      const auto corner = corner_of(a);
-      const Int3 node{cell[0] + corner[0], cell[1] + corner[1], cell[2] + corner[2]};
+      const auto at = corner(a);
+      const Int3 node{cell[0] + at[0], cell[1] + at[1], cell[2] + at[2]};
       if (!lattice.layout.owns(node)) continue;
       by_row.push_back({node[1] + owned[1] * node[2], {node[0], s, spring.weights[static_cast<std::size_t>(a)]}});
     }
@@ -42,7 +38,7 @@ void GroundForces::update(const lattice::Field<double>& u, const Rows& rows) {
     if (cell[1] + 1 < rows.j0 || cell[1] >= rows.j1 || cell[2] + 1 < rows.k0 || cell[2] >= rows.k1) continue;
     double stretch = 0;
     for (int a = 0; a < 8; ++a) {
-      const std::int64_t node = spring.cell + layout.offset(corner_of(a));
+      const std::int64_t node = spring.cell + layout.offset(corner(a));
       const Vec3 at{u.component(0)[node], u.component(1)[node], u.component(2)[node]};
       stretch += spring.weights[static_cast<std::size_t>(a)] * dot(spring.direction, at);
     }

@@ -52,9 +52,8 @@ Tensor6 given_strain(const model::Definition& definition, double time) {
 }
 
 bool has_mean_strain(const model::Model& model, std::size_t c) {
-  constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   const auto& periodic = model.lattice.grid.periodic;
-  return periodic[axes[c][0]] && periodic[axes[c][1]];
+  return periodic[tensor_axes[c][0]] && periodic[tensor_axes[c][1]];
 }
 
 void exchange_displacements(const model::Model& model, const Tensor6& strain, lattice::Field<double>& u) {

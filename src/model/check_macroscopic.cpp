@@ -10,11 +10,10 @@ namespace koshi::model {
 namespace {
 
 constexpr std::array<const char*, 6> names{"xx", "yy", "zz", "yz", "xz", "xy"};
-constexpr std::array<std::array<std::size_t, 2>, 6> axes{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
 
 // A component needs periods along both of its axes: without, nothing in the body feels it.
 void check_component(const Checker& check, const std::string& path, std::size_t c) {
-  for (const std::size_t a : axes[c])
+  for (const std::size_t a : tensor_axes[c])
     if (!check.definition.body.periodic[a])
       check.fail(path, fmt::format("a macroscopic {} needs a body that is periodic along its axes, and this one is not "
                                    "in {}; add \"{}\" to body.periodic, or leave {} out",

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -19,6 +20,18 @@ inline Vec3 double_area(const Polygon& polygon) {
   for (std::size_t v = 2; v < polygon.size(); ++v)
     sum = sum + cross(polygon[v - 1] - polygon[0], polygon[v] - polygon[0]);
   return sum;
+}
+
+/// Two directions across a third, all of length 1 and right-handed.
+inline std::array<Vec3, 2> across(const Vec3& direction) {
+  std::size_t least = 0;
+  for (std::size_t a = 1; a < 3; ++a)
+    if (std::abs(direction[a]) < std::abs(direction[least])) least = a;
+  Vec3 axis{};
+  axis[least] = 1;
+  Vec3 u = cross(direction, axis);
+  u = (1 / norm(u)) * u;
+  return {u, cross(direction, u)};
 }
 
 /// The parts of a polygon with x[axis] below and above a plane.

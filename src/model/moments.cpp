@@ -69,18 +69,11 @@ Polygon face_of(const PartCube& cube, std::size_t axis, double side) {
 
 // The plane normal . x = offset inside the cube; `normal` has length 1.
 Polygon section_of(const PartCube& cube, const Vec3& normal, double offset) {
-  // A square in the plane that is larger than the section, cut by the six faces; the axis farthest from the normal
-  // gives a direction in it.
-  std::size_t far = 0;
-  for (std::size_t a = 1; a < 3; ++a)
-    if (std::abs(normal[a]) < std::abs(normal[far])) far = a;
-  Vec3 axis{};
-  axis[far] = 1;
-  Vec3 along = cross(normal, axis);
-  along = (4 * cube.half / norm(along)) * along;
-  const Vec3 across = cross(normal, along);
+  // A square in the plane that is larger than the section, cut by the six faces.
+  const auto [u, v] = across(normal);
+  const Vec3 along = 4 * cube.half * u, side = 4 * cube.half * v;
   const Vec3 middle = cube.centre + (offset - dot(normal, cube.centre)) * normal;
-  Polygon section{middle - along - across, middle + along - across, middle + along + across, middle - along + across};
+  Polygon section{middle - along - side, middle + along - side, middle + along + side, middle - along + side};
   for (std::size_t a = 0; a < 3 && !section.empty(); ++a) {
     section = split(section, a, cube.centre[a] - cube.half).second;
     section = split(section, a, cube.centre[a] + cube.half).first;

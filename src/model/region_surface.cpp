@@ -22,18 +22,6 @@ int facets(double radius, double d) {
   return std::max(48, static_cast<int>(std::ceil(2 * std::numbers::pi * radius / edge)));
 }
 
-// Two directions across a third, all of length 1 and right-handed.
-std::pair<Vec3, Vec3> across(const Vec3& axis) {
-  std::size_t least = 0;
-  for (std::size_t a = 1; a < 3; ++a)
-    if (std::abs(axis[a]) < std::abs(axis[least])) least = a;
-  Vec3 side{};
-  side[least] = 1;
-  Vec3 u = cross(axis, side);
-  u = (1 / norm(u)) * u;
-  return {u, cross(axis, u)};
-}
-
 std::vector<Polygon> sphere_surface(const RegionDefinition& region, double d) {
   const int around = facets(region.radius, d), rows = around / 2;
   const auto point = [&](int row, int side) {

@@ -69,18 +69,6 @@ Vec3 true_normal(const RegionDefinition& region, const Vec3& x, const Vec3& roug
   return best;
 }
 
-// Two directions across a third, all of length 1.
-std::array<Vec3, 2> across(const Vec3& normal) {
-  std::size_t least = 0;
-  for (std::size_t a = 1; a < 3; ++a)
-    if (std::abs(normal[a]) < std::abs(normal[least])) least = a;
-  Vec3 axis{};
-  axis[least] = 1;
-  Vec3 u = cross(normal, axis);
-  u = (1 / norm(u)) * u;
-  return {u, cross(normal, u)};
-}
-
 /// Adds springs of this rank.
 class SpringMaker {
  public:

@@ -8,17 +8,11 @@
 namespace koshi::statics {
 
 std::array<Eigen::MatrixXd, mechanics::cell_constants> cell_basis(int components) {
-  // With d = 2 rotations are unknowns as they are. The springs that have one constant of 1 and the others 0:
-  const std::array<material::Springs, mechanics::cell_constants> unit{{{{16, 0, 0}, {0, 0, 0}, 0},
-                                                                       {{0, 0, 0}, {16, 0, 0}, 0},
-                                                                       {{0, 16, 0}, {0, 0, 0}, 0},
-                                                                       {{0, 8, 0}, {0, 8, 0}, 0},
-                                                                       {{0, 0, 12}, {0, 0, 0}, 0},
-                                                                       {{0, 0, 4}, {0, 0, 4}, 0},
-                                                                       {{0, 0, 0}, {0, 0, 0}, 8}}};
+  // With d = 2 rotations are unknowns as they are.
   const auto kinematics = components == 6 ? material::Kinematics::rotational : material::Kinematics::least_squares;
   std::array<Eigen::MatrixXd, mechanics::cell_constants> basis;
-  for (std::size_t q = 0; q < unit.size(); ++q) basis[q] = mechanics::cell_matrix(unit[q], 2, kinematics);
+  for (std::size_t q = 0; q < basis.size(); ++q)
+    basis[q] = mechanics::cell_matrix(mechanics::unit_springs[q], 2, kinematics);
   return basis;
 }
 

@@ -55,7 +55,6 @@ FixedNodes held_nodes(const model::SpringLattice& body, const FixedNodes& fixed,
     return there;
   };
   for (const FixedNode& node : fixed) at(node.node).mask = node.mask;
-  constexpr std::array<std::array<std::size_t, 2>, 6> pairs{{{0, 0}, {1, 1}, {2, 2}, {1, 2}, {0, 2}, {0, 1}}};
   const auto& layout = body.layout;
   for (const model::GroundSpring& spring : body.ground) {
     const Int3 cell = layout.place(spring.cell);
@@ -68,7 +67,8 @@ FixedNodes held_nodes(const model::SpringLattice& body, const FixedNodes& fixed,
       const double k = spring.stiffness * sum * std::abs(spring.weights[a]) / largest;
       FixedNode& there = at(node);
       for (std::size_t s = 0; s < 6; ++s)
-        there.spring[s] += static_cast<float>(k * spring.direction[pairs[s][0]] * spring.direction[pairs[s][1]]);
+        there.spring[s] +=
+            static_cast<float>(k * spring.direction[tensor_axes[s][0]] * spring.direction[tensor_axes[s][1]]);
     }
   }
   FixedNodes list;

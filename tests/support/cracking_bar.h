@@ -49,6 +49,20 @@ inline model::Definition cracking_bar(double d, material::Kinematics kinematics,
   return definition;
 }
 
+// The same under this traction [Pa] on its end, times the history, without probes.
+inline model::Definition loaded_bar(material::Softening softening, double traction, const model::History& history) {
+  model::Definition definition = cracking_bar(0.005, material::Kinematics::least_squares, softening);
+  definition.boundaries.erase(definition.boundaries.begin() + 1);
+  model::LoadDefinition load;
+  load.name = "pull";
+  load.selection.face = model::Face::x_max;
+  load.traction = Vec3{traction, 0, 0};
+  load.history = history;
+  definition.loads = {load};
+  definition.probes.clear();
+  return definition;
+}
+
 struct CrackRow {
   double time, factor, force;
   mechanics::Balance balance;

@@ -5,9 +5,13 @@
 
 #include "driver/simulation.h"
 #include "support/breaking_block.h"
+#include "support/watched_run.h"
 
 namespace koshi {
 namespace {
+
+using test::watch;
+using test::Watched;
 
 using test::block_of_bonds;
 
@@ -29,31 +33,6 @@ model::Definition bar() {
   definition.analysis.damping = {model::DampingDefinition::Kind::local, 0.3};
   definition.output.history_every = 5e-6;
   return definition;
-}
-
-struct Watched {
-  double peak = 0, last = 0, unbalanced = 0;
-  int rows = 0;
-  mechanics::Balance end;
-};
-
-Watched watch(const model::Definition& definition) {
-  driver::Simulation simulation(definition, Communicator::world());
-  Watched seen;
-  double largest = 0, gap = 0;
-  driver::Observer observer;
-  observer.history = [&](const mechanics::Measurement& at, model::State&) {
-    const mechanics::Balance& b = at.balance;
-    seen.last = at.probes[0][0];
-    seen.peak = std::max(seen.peak, at.probes[0][0]);
-    largest = std::max(largest, std::abs(b.given));
-    gap = std::max(gap, std::abs(b.leapfrog_energy + b.damped + b.cracked - b.given));
-    seen.end = b;
-    ++seen.rows;
-  };
-  simulation.run(observer);
-  seen.unbalanced = gap / largest;
-  return seen;
 }
 
 // Periodic across, so that all layers stay plane and the weak one takes G_f. In uniaxial strain edges break at e_c,

@@ -79,15 +79,7 @@ TEST(CrackEvents, WithoutCracksItIsTheEquilibrium) {
 
 // A bar under a given force is the same bar: its factor peaks with the strength, and its stiffness falls.
 TEST(CrackEvents, LoadsAreScaled) {
-  model::Definition definition = cracking_bar(0.005, least_squares, material::Softening::exponential);
-  definition.boundaries.erase(definition.boundaries.begin() + 1);
-  model::LoadDefinition load;
-  load.name = "pull";
-  load.selection.face = model::Face::x_max;
-  load.traction = Vec3{2e6, 0, 0};
-  load.history = {{0, 0}, {1, 0.5}};
-  definition.loads = {load};
-  definition.probes.clear();
+  model::Definition definition = test::loaded_bar(material::Softening::exponential, 2e6, {{0, 0}, {1, 0.5}});
   const Followed seen = follow_cracks(definition);
   EXPECT_NEAR(seen.outcome.path->peak_load_factor, 3, 3e-3);
   EXPECT_EQ(seen.outcome.path->reason, "the body has parted");

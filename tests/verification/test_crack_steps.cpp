@@ -84,15 +84,7 @@ TEST(CrackSteps, CracksCloseAndOpen) {
 // Under a given force nothing holds the bar beyond its strength of 300 N: it parts in the first step above it, and the
 // last row is that of the step before.
 TEST(CrackSteps, BodiesUnderLoadsPart) {
-  model::Definition definition = cracking_bar(0.005, least_squares, material::Softening::exponential);
-  definition.boundaries.erase(definition.boundaries.begin() + 1);
-  model::LoadDefinition load;
-  load.name = "pull";
-  load.selection.face = model::Face::x_max;
-  load.traction = Vec3{4e6, 0, 0};
-  load.history = {{0, 0}, {1, 1}};
-  definition.loads = {load};
-  definition.probes.clear();
+  model::Definition definition = test::loaded_bar(material::Softening::exponential, 4e6, {{0, 0}, {1, 1}});
   definition.analysis.steps = 50;
   const Followed seen = follow_cracks(definition);
   EXPECT_EQ(seen.outcome.path->reason, "the body has parted in step 38");

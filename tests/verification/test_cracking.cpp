@@ -7,9 +7,13 @@
 #include "driver/simulation.h"
 #include "failure/cracking.h"
 #include "support/cases.h"
+#include "support/watched_run.h"
 
 namespace koshi {
 namespace {
+
+using test::watch;
+using test::Watched;
 
 constexpr double degrees = std::numbers::pi / 180;
 const material::Elastic concrete{30e9, 0.2, 2400};
@@ -163,33 +167,6 @@ model::Definition bar(double d, material::Kinematics kinematics) {
   definition.analysis.duration = 4e-3;
   definition.output.history_every = 2e-5;
   return definition;
-}
-
-// Energies of a run must add up in every row: what cells store and move, what damping and cracks took, is what loads
-// and supports gave.
-struct Watched {
-  double peak = 0, last = 0, unbalanced = 0;
-  int rows = 0;
-  mechanics::Balance end;
-};
-
-Watched watch(const model::Definition& definition) {
-  driver::Simulation simulation(definition, Communicator::world());
-  Watched seen;
-  driver::Observer observer;
-  double largest = 0, gap = 0;
-  observer.history = [&](const mechanics::Measurement& at, model::State&) {
-    const mechanics::Balance& b = at.balance;
-    seen.last = at.probes[0][0];
-    seen.peak = std::max(seen.peak, at.probes[0][0]);
-    largest = std::max(largest, std::abs(b.given));
-    gap = std::max(gap, std::abs(b.leapfrog_energy + b.damped + b.cracked - b.given));
-    seen.end = b;
-    ++seen.rows;
-  };
-  simulation.run(observer);
-  seen.unbalanced = gap / largest;
-  return seen;
 }
 
 // The weak layer breaks at its strength and takes G_f for its area, whatever the spacing. It cracks at 2.7e6/30e9 80 mm
