@@ -7,6 +7,7 @@ PEAK, LIFT = 7219.1, 0.2078  # [N], [mm]: the top row of the measured curve
 def values(run):
     result = run()
     force = result.history("jack.reaction.y")
-    taken, given = result.history("cracks")[-1], result.history("work of loads and supports")[-1]
     yield "largest force [kN]", 1e-3 * PEAK, 1e-3 * SLICES * max(force), 0.1
+    yield "lift of the jack then [mm]", LIFT, result.history("load factor")[force.index(max(force))], 0.1
+    taken, given = result.history("cracks")[-1], result.history("work of loads and supports")[-1]
     yield "energy of cracks and springs over work [1]", 1, (taken + result.history("elastic energy")[-1]) / given, 1e-4

@@ -119,10 +119,13 @@ double factor(const BoundaryDefinition& boundary, double t);
 double predicted_memory(const Definition& definition, int ranks);
 
 /// Components of State::crack.
-inline constexpr int crack_components = 15;
+inline constexpr int crack_components = 16;
 
 /// Among them: when the cell cracked through.
 inline constexpr int crack_moment = 13;
+
+/// Where the crack lies in its cell; infinite if no crack goes on along it.
+inline constexpr int crack_offset = 15;
 
 /// Damage from which on a cell counts as cracked through: as part of a crack's surface, in its catalogue, at a face.
 inline constexpr double parted = 0.9;
@@ -136,7 +139,8 @@ struct State {
   /// Of cells at their lowest corner: damage, largest equivalent strain, that at the onset, energy [J/m^3] at the
   /// onset, what the crack takes in all and what it has taken over that, its normal and slip (3 each), energy that it
   /// and its friction took [J], time [s] at which its damage passed `parted` (0: not, or before the run), 1 if it began
-  /// by the shear limit; no components unless a material can crack.
+  /// by the shear limit, where its plane lies from the middle of the cell along the normal [m] (infinite where no crack
+  /// goes on along it); no components unless a material can crack.
   lattice::Field<double> crack;
   /// Where bonds can break, of nodes: bits of the forward bonds that are broken, and of those that their shear broke,
   /// as SpringLattice::broken. In State::crack damage then is the share of a cell's bonds that are broken, 1 once they

@@ -29,11 +29,14 @@ double CellLaw::equivalent(const Tensor6& strain) const {
   return criterion_.equivalent(principal(elastic_stress(lambda_, mu_, strain)).value) / youngs_modulus_;
 }
 
-Crack CellLaw::ahead(const Tensor6& strain, double strength_factor) const {
+Crack CellLaw::ahead(const Tensor6& strain, double strength_factor, const Vec3& lead) const {
   const Principal stress = principal(elastic_stress(lambda_, mu_, strain));
   Crack crack;
   crack.kappa = criterion_.equivalent(stress.value) / youngs_modulus_;
+  crack.shear = criterion_.shears(stress.value);
   crack.normal = criterion_.normal(stress);
+  if (!crack.shear && lead != Vec3{} && std::abs(dot(crack.normal, lead)) < std::numbers::sqrt2 / 2)
+    crack.normal = lead;
   crack.limit = threshold_of(crack.normal, strength_factor);
 
   // The onset is at the same strain scaled to the limit.
@@ -41,14 +44,13 @@ Crack CellLaw::ahead(const Tensor6& strain, double strength_factor) const {
   crack.onset = energy(strain) / (beyond * beyond);
   // Cells that shear under pressure store much more than the crack of a tensile test takes; they soften by the same
   // law.
-  crack.shear = criterion_.shears(stress.value);
   const double stored = crack.shear ? 0.5 * youngs_modulus_ * crack.limit * crack.limit : crack.onset;
   crack.ratio = fracture_.fracture_energy / band_width(d_, crack.normal) / stored;
   return crack;
 }
 
-std::optional<Crack> CellLaw::onset(const Tensor6& strain, double strength_factor) const {
-  Crack crack = ahead(strain, strength_factor);
+std::optional<Crack> CellLaw::onset(const Tensor6& strain, double strength_factor, const Vec3& lead) const {
+  Crack crack = ahead(strain, strength_factor, lead);
   if (crack.kappa <= crack.limit) return std::nullopt;
   return crack;
 }

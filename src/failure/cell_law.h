@@ -1,6 +1,7 @@
 // How one cell cracks: criterion, softening and crack faces put together. Knows no lattice, no rank, no solver.
 #pragma once
 
+#include <limits>
 #include <optional>
 
 #include "failure/crack_faces.h"
@@ -12,8 +13,10 @@ namespace koshi::failure {
 
 /// What a cracked cell remembers. A cell that never reached its strength has kappa = 0.
 struct Crack {
-  Vec3 normal{};       ///< of the plane that cracked first; stays
-  Vec3 slip{};         ///< of the closed faces over the cell's width
+  Vec3 normal{};  ///< of the plane that cracked first; stays
+  Vec3 slip{};    ///< of the closed faces over the cell's width
+  /// Of the plane from the middle of the cell along the normal [m]; infinite if no crack goes on along it.
+  double offset = std::numeric_limits<double>::infinity();
   double kappa = 0;    ///< largest equivalent strain so far
   double limit = 0;    ///< equivalent strain at the onset
   double onset = 0;    ///< elastic energy at the onset [J/m^3]
@@ -38,15 +41,16 @@ class CellLaw {
     return {p * of.p_1, r * of.r_1, p * of.p_2, r * of.r_2};
   }
   /// The crack that this strain leads to in a cell without one, when it has grown or shrunk in proportion until the
-  /// equivalent strain is at the limit.
-  Crack ahead(const Tensor6& strain, double strength_factor) const;
+  /// equivalent strain is at the limit. In tension it is one across the largest stress; if another crack leads here,
+  /// with this unit normal (or 0), and the two are more than 45 degrees apart, it goes on as it did.
+  Crack ahead(const Tensor6& strain, double strength_factor, const Vec3& lead = {}) const;
   double youngs_modulus() const { return youngs_modulus_; }
   /// Equivalent strain.
   double equivalent(const Tensor6& strain) const;
   /// How a crack softens its cell.
   Softening softening(const Crack& crack) const { return {fracture_.softening, crack.ratio}; }
   /// A cell without a crack at this strain: the crack that begins, without damage yet, or nothing.
-  std::optional<Crack> onset(const Tensor6& strain, double strength_factor) const;
+  std::optional<Crack> onset(const Tensor6& strain, double strength_factor, const Vec3& lead = {}) const;
   /// The crack of unit normal n with this damage, above 0 and at most 1, that uniaxial tension across it would have
   /// made; where the cell would break at once its damage is 1.
   Crack damaged(const Vec3& n, double damage, double strength_factor) const;

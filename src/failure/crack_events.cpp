@@ -54,8 +54,8 @@ void CrackEvents::consider_row(std::int64_t j, std::int64_t k) {
     if (!(bound > 0) || !(safe[i] <= least_ * (1 + tie) * bound)) continue;
     const std::int64_t n = first + i;
     const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
-    const Crack crack = cracking_.law(n).ahead(strain, model_.strength_of(n));
-    if (crack.kappa > 0) consider(n, crack.limit / crack.kappa);
+    const Crack crack = cracking_.law(n).ahead(strain, model_.strength_of(n), cracking_.tracks_.lead(n));
+    if (crack.kappa > 0) consider(n, cracking_.tracks_.hold(n, crack) * crack.limit / crack.kappa);
   }
 }
 
@@ -113,10 +113,10 @@ bool CrackEvents::soften() {
   std::erase_if(candidates_, [this](const Candidate& c) { return !(c.factor <= least_ * (1 + tie)); });
   // In the order of cells in memory, by whatever way they were found.
   std::ranges::sort(candidates_, {}, &Candidate::cell);
-  const std::size_t before = cracking_.cracked_.size();
+  cracking_.begun_.clear();
   faces_.note();
   for (const Candidate& candidate : candidates_) soften(candidate.cell);
-  if (cracking_.cracked_.size() != before) std::sort(cracking_.cracked_.begin(), cracking_.cracked_.end());
+  cracking_.take_begun();
   faces_.restore();
   return model_.communicator.any(!losses_.empty());
 }
@@ -126,7 +126,10 @@ void CrackEvents::soften(std::int64_t n) {
   if (crack.damage >= 1) return;  // its energy has come to its end
   const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
   const bool fresh = crack.kappa == 0;
-  if (fresh) crack = cracking_.law(n).ahead(strain, model_.strength_of(n));
+  if (fresh) {
+    crack = cracking_.law(n).ahead(strain, model_.strength_of(n), cracking_.tracks_.lead(n));
+    crack.offset = cracking_.tracks_.offset(n, crack);
+  }
   const double equivalent = cracking_.law(n).equivalent(strain);
   crack.kappa = std::max(crack.kappa, equivalent);
 
@@ -142,7 +145,7 @@ void CrackEvents::soften(std::int64_t n) {
                      mechanics::cell_motion(model_.lattice, state_.displacement, n),
                      std::min(along(strain, crack.normal), 0.0)});
   if (!fresh) return;
-  cracking_.cracked_.push_back(n);
+  cracking_.begun_.push_back(n);
   faces_.note(n);
 }
 

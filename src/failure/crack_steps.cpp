@@ -54,8 +54,14 @@ void CrackSteps::look(Followed& cell) {
   if (damage >= 1) fly_ = fly_ || along(strain, cracking_.load(cell.cell).normal) > 1;
   cell.next = cell.before;
   if (cell.before.damage >= 1) return;
-  // A cell that began to crack in this step begins anew at each look, or not.
-  if (cell.before.kappa == 0) cell.next = law.onset(strain, model_.strength_of(cell.cell)).value_or(Crack{});
+  // A cell that began to crack in this step begins anew at each look, or not, but where it did.
+  if (cell.before.kappa == 0) {
+    const Crack begun = cracking_.load(cell.cell);
+    cell.next = (begun.kappa > 0 ? law.onset(strain, model_.strength_of(cell.cell), begun.normal)
+                                 : cracking_.begin(cell.cell, strain))
+                    .value_or(Crack{});
+    if (begun.kappa > 0) cell.next.offset = begun.offset;
+  }
   if (cell.next.kappa > 0) law.soften(cell.next, strain, std::max(energy_lost(cell, strain, cell.next.normal), 0.0));
   const double limit = std::max(cell.next.limit, law.safe(model_.strength_of(cell.cell)));
   cell.off_before = cell.off;
@@ -72,7 +78,7 @@ void CrackSteps::seek(std::int64_t j, std::int64_t k) {
     const auto at = static_cast<std::size_t>(i);
     if (!(cracking_.bounds_[material[i]](cracking_.mean_[at], cracking_.radius_[at]) > below[i])) continue;
     const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, first + i);
-    if (cracking_.law(first + i).onset(strain, model_.strength_of(first + i))) followed_.push_back({first + i, {}});
+    if (cracking_.begin(first + i, strain)) followed_.push_back({first + i, {}});
   }
 }
 
@@ -112,13 +118,17 @@ void CrackSteps::stretch() {
 
 void CrackSteps::take() {
   cracking_.cracked_.clear();
+  cracking_.begun_.clear();
   for (Followed& cell : followed_) {
     const double now = 1 - cracking_.load(cell.cell).damage, left = 1 - cell.next.damage;
     if (left > 0 && now > 0) cell.next.damage = std::max(cell.before.damage, 1 - now * std::pow(left / now, stretch_));
     cracking_.store(cell.cell, cell.next);
     cracking_.weaken(cell.cell, cell.next.damage);
-    if (cell.next.kappa > 0) cracking_.cracked_.push_back(cell.cell);
+    if (cell.next.kappa == 0) continue;
+    cracking_.cracked_.push_back(cell.cell);
+    if (cell.before.kappa == 0) cracking_.begun_.push_back(cell.cell);
   }
+  cracking_.tracks_.follow(cracking_.begun_);
   faces_.restore();
 }
 
@@ -143,12 +153,14 @@ void CrackSteps::end() {
       state_.crack.component(Cracking::moment)[n] = state_.time;
     if (cell.before.kappa == 0) faces_.note(n, strain_before(n, crack.normal));
   }
+  cracking_.restore_tracks();
 }
 
 void CrackSteps::undo() {
   std::copy_n(start_.data(), start_.count(), state_.displacement.data());
   for (Followed& cell : followed_) cell.next = cell.before;
   take();
+  cracking_.restore_tracks();
   faces_.springs().update(state_.displacement);
 }
 

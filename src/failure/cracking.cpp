@@ -7,7 +7,7 @@
 
 namespace koshi::failure {
 Cracking::Cracking(model::Model& model, model::State& state)
-    : Fracturing(model, state), rows_(strain_rows()), limit_(model.layout(), 1) {
+    : Fracturing(model, state), rows_(strain_rows()), limit_(model.layout(), 1), tracks_(model, state) {
   const lattice::Layout& layout = model.layout();
   if (model.lattice.factor.components() == 0) model::make_factors(model.lattice, [](const Int3&) { return 1.0F; });
   whole_ = model.lattice.factor;
@@ -38,6 +38,7 @@ Cracking::Cracking(model::Model& model, model::State& state)
   });
   cracked_.reserve(breakable);
   pressed_.reserve(breakable);
+  begun_.reserve(breakable);
   restore();
 }
 
@@ -59,7 +60,14 @@ void Cracking::restore() {
     cracked_.push_back(n);
     forces_.reach(n);
   });
+  tracks_.restore();
   close_faces(false);
+}
+
+// Of cells that have become whole again, too.
+void Cracking::restore_tracks() {
+  model_.lattice.halo->exchange(state_.crack);
+  tracks_.restore();
 }
 
 Crack Cracking::load(std::int64_t n) const {
@@ -72,6 +80,7 @@ Crack Cracking::load(std::int64_t n) const {
   crack.ratio = part(ratio);
   crack.taken = part(taken);
   crack.shear = part(shear) != 0;
+  crack.offset = part(offset);
   crack.normal = {part(normal), part(normal + 1), part(normal + 2)};
   crack.slip = {part(slip), part(slip + 1), part(slip + 2)};
   return crack;
@@ -85,6 +94,7 @@ void Cracking::store(std::int64_t n, const Crack& crack) {
   state_.crack.component(ratio)[n] = crack.ratio;
   state_.crack.component(taken)[n] = crack.taken;
   state_.crack.component(shear)[n] = crack.shear ? 1 : 0;
+  state_.crack.component(offset)[n] = crack.offset;
   for (int a = 0; a < 3; ++a) {
     state_.crack.component(normal + a)[n] = crack.normal[static_cast<std::size_t>(a)];
     state_.crack.component(slip + a)[n] = crack.slip[static_cast<std::size_t>(a)];
@@ -122,7 +132,7 @@ std::int64_t Cracking::count(double at_least) const {
 
 void Cracking::follow(double dt) {
   const Int3& owned = model_.layout().owned();
-  const std::size_t before = cracked_.size();
+  begun_.clear();
   clear_faces();
   spend_reach(dt);
   for (std::int64_t k = -1; k < owned[2]; ++k)
@@ -130,8 +140,7 @@ void Cracking::follow(double dt) {
       const std::size_t row = cell_row(model_.layout(), j, k);
       if (breakable_[row] != 0 && !(reach_[row] > 0)) follow_row(j, k, dt);
     }
-  // Forces of faces are added up in the order of cells in memory, whoever cracked first.
-  if (cracked_.size() != before) std::sort(cracked_.begin(), cracked_.end());
+  take_begun();
   close_faces(true);
 }
 
@@ -192,12 +201,20 @@ double Cracking::intact_energy(std::int64_t n, double dt) const {
   return (energy(1, -0.5 * dt) - energy(0, 0.5 * dt)) / model_.lattice.factor_of(n);
 }
 
+// The crack that begins in a cell without one at this strain, or nothing.
+std::optional<Crack> Cracking::begin(std::int64_t n, const Tensor6& strain) const {
+  auto crack = law(n).onset(strain, model_.strength_of(n), tracks_.lead(n));
+  if (!crack || crack->kappa <= tracks_.hold(n, *crack) * crack->limit) return std::nullopt;
+  crack->offset = tracks_.offset(n, *crack);
+  return crack;
+}
+
 void Cracking::crack_further(std::int64_t n, double dt) {
   const Tensor6 strain = mechanics::cell_strain(model_.lattice, state_.displacement, n);
   Crack crack = load(n);
   const bool fresh = crack.kappa == 0;
   if (fresh) {
-    const auto found = law(n).onset(strain, model_.strength_of(n));
+    const auto found = begin(n, strain);
     if (!found) return;
     crack = *found;
   }
@@ -211,8 +228,18 @@ void Cracking::crack_further(std::int64_t n, double dt) {
   store(n, crack);
   set_factor(n, crack);
   if (!fresh) return;
-  cracked_.push_back(n);
+  begun_.push_back(n);
   forces_.reach(n);
+}
+
+// What begins in a step does not lead others in the same step, so that the order of cells does not matter. Forces of
+// faces are added up in the order of cells in memory, whoever cracked first.
+void Cracking::take_begun() {
+  if (!begun_.empty()) {
+    cracked_.insert(cracked_.end(), begun_.begin(), begun_.end());
+    std::sort(cracked_.begin(), cracked_.end());
+  }
+  tracks_.follow(begun_);
 }
 
 }  // namespace koshi::failure

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "failure/cell_law.h"
+#include "failure/crack_tracks.h"
 #include "failure/fracturing.h"
 #include "failure/strain_rows.h"
 #include "koshi/model.h"
@@ -49,7 +50,10 @@ class Cracking : public Fracturing {
   void look_at_row(std::int64_t j, std::int64_t k);
   void follow_row(std::int64_t j, std::int64_t k, double dt);
   void spend_reach(double dt);
+  std::optional<Crack> begin(std::int64_t n, const Tensor6& strain) const;
   void crack_further(std::int64_t n, double dt);
+  void take_begun();
+  void restore_tracks();
   float factor(std::int64_t n, double damage) const;
   /// The part of a cell whose faces touch.
   double share(std::int64_t n, const Crack& crack) const {
@@ -77,10 +81,12 @@ class Cracking : public Fracturing {
   std::vector<double> mean_, radius_;  ///< of a row
   lattice::Field<float> whole_;        ///< factors of the cells without cracks
   lattice::Field<float> limit_;        ///< equivalent strain below which a cell does not crack further
-  std::vector<char> breakable_;        ///< rows of cells with a material that can crack
-  std::vector<double> reach_;  ///< of rows of cells: how far nodes may move before a cell can be at its limit [m]
-  std::vector<double> moved_;  ///< of rows of nodes, (-1, -1) first: the longest way of a node in a step [m]
+  CrackTracks tracks_;
+  std::vector<char> breakable_;  ///< rows of cells with a material that can crack
+  std::vector<double> reach_;    ///< of rows of cells: how far nodes may move before a cell can be at its limit [m]
+  std::vector<double> moved_;    ///< of rows of nodes, (-1, -1) first: the longest way of a node in a step [m]
   std::vector<std::int64_t> cracked_;  ///< cracked cells, ascending
+  std::vector<std::int64_t> begun_;    ///< cells whose cracks began in this step or event
   std::vector<std::int64_t> pressed_;  ///< of these, those whose faces carry something
 };
 

@@ -22,9 +22,11 @@ class Fracturing {
     slip = normal + 3,
     dissipated = slip + 3,
     moment,
-    shear
+    shear,
+    offset
   };
-  static_assert(shear + 1 == model::crack_components && moment == model::crack_moment);
+  static_assert(offset + 1 == model::crack_components && moment == model::crack_moment &&
+                offset == model::crack_offset);
 
   virtual ~Fracturing() = default;
 

@@ -150,11 +150,11 @@ double predicted_memory(const Definition& definition, int ranks) {
     return bytes * static_cast<double>(whole.size()) + solver + vectors + sample;
   }
   // Cracks, forces of their faces and the energies of nodes; three numbers of single precision that follow from them
-  // (failure/cracking.h), one of them the factor above.
+  // (failure/cracking.h), one of them the factor above, and nine of the cracks' planes (failure/crack_tracks.h).
   if (definition.breaks_bonds())  // of bonds: those that are broken, what they change in forces
     bytes += 8 * (crack_components + components + 2 + 2) + 8 + 2;
   else if (definition.cracks())
-    bytes += 8 * (crack_components + 3 + 2) + 8 + (factors ? 0 : 4);
+    bytes += 8 * (crack_components + 3 + 2) + 8 + 36 + (factors ? 0 : 4);
   if (statics) {
     // The operand and the right-hand side of many solves, beside displacements and velocities.
     if (definition.cracks()) bytes += 16 * components;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "koshi/error.h"
 
@@ -78,6 +79,7 @@ void add_cracks(const Model& model, lattice::Field<double>& field) {
         field.component(6 + a)[n] = normal[static_cast<std::size_t>(a)];
         field.component(9 + a)[n] = 0;
       }
+      field.component(crack_offset)[n] = std::numeric_limits<double>::infinity();
     });
     check_cut(model, c, cut, whole, "cell");
   }

@@ -201,7 +201,7 @@ TEST(Cracking, BarsTakeTheFractureEnergy) {
 // Pulled until it cracks, pushed until it closes and held, with local damping: the closed crack carries the pressure of
 // the intact bar, E A e, and energies add up. Exactly so with least-squares kinematics. Nodes with rotations of their
 // own turn along the edges of crack faces, as along those of a smooth platen (theory, section 6): two cells across are
-// softer by a few per cent.
+// softer by 8 %.
 TEST(Cracking, ClosedCracksCarryPressure) {
   for (const auto kinematics : {material::Kinematics::rotational, material::Kinematics::least_squares}) {
     model::Definition definition = bar(0.005, kinematics);
@@ -211,8 +211,8 @@ TEST(Cracking, ClosedCracksCarryPressure) {
     definition.boundaries[1].history = {{0, 0}, {1e-3, 0.06}, {2e-3, 0.4}, {4e-3, -0.1}, {5e-3, -0.1}};
     const Watched seen = watch(definition);
     const double pressure = 30e9 * 1e-4 * 1e-5 / 0.08;
-    EXPECT_NEAR(-seen.last / pressure, fitted ? 1 : 0.95, fitted ? 1e-5 : 0.02);
-    EXPECT_NEAR(seen.end.leapfrog_energy / (0.5 * pressure * 1e-5), fitted ? 1 : 0.95, fitted ? 1e-5 : 0.02);
+    EXPECT_NEAR(-seen.last / pressure, fitted ? 1 : 0.92, fitted ? 1e-5 : 0.01);
+    EXPECT_NEAR(seen.end.leapfrog_energy / (0.5 * pressure * 1e-5), fitted ? 1 : 0.92, fitted ? 1e-5 : 0.01);
     EXPECT_GT(seen.end.cracked, 0.4 * 1e-4 * 100);
     EXPECT_LT(seen.end.cracked, 0.7 * 1e-4 * 100);
     EXPECT_GT(seen.end.damped, 0);
