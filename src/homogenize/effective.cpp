@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <cmath>
+#include <optional>
 
 #include "base/exact_sum.h"
 #include "homogenize/bounds.h"
@@ -12,6 +13,7 @@
 #include "homogenize/structure.h"
 #include "koshi/error.h"
 #include "mechanics/uniform_strain.h"
+#include "statics/mixed_gradients.h"
 #include "statics/static_solver.h"
 
 namespace koshi::homogenize {
@@ -104,23 +106,50 @@ Matrix symmetric(const Matrix& whole, double& asymmetry) {
   return result;
 }
 
+// Equilibrium under mean strains: in single precision where that serves, else by PETSc's solver.
+class StrainSolver {
+ public:
+  StrainSolver(const model::Model& model, const statics::StaticOptions& options) : model_(model) {
+    if (statics::MixedGradients::serves(model, options)) {
+      mixed_.emplace(model, options);
+      return;
+    }
+    work_ = lattice::Field<double>(model.layout(), model.components());
+    right_hand_side_.resize(static_cast<std::size_t>(model.layout().owned_count() * model.components()));
+    double_.emplace(model, 0, work_, options);
+  }
+
+  // Fills u, ghosts too.
+  statics::SolveReport solve(const mechanics::Tensor6& strain, double rounding, lattice::Field<double>& u) {
+    if (mixed_) return mixed_->solve(strain, rounding, u);
+    // The springs push the uniform strain out of balance; what is added to it restores it.
+    u.zero();
+    mechanics::add_uniform_strain(model_, strain, u);
+    double_->equilibrium().right_hand_side(u, right_hand_side_.data());
+    const statics::SolveReport report = double_->solve(right_hand_side_.data(), rounding, u);
+    mechanics::add_uniform_strain(model_, strain, u);
+    return report;
+  }
+
+ private:
+  const model::Model& model_;
+  std::optional<statics::MixedGradients> mixed_;
+  lattice::Field<double> work_;
+  std::vector<double> right_hand_side_;
+  std::optional<statics::StaticSolver> double_;
+};
+
 // Columns of C: mean stresses under the mean strains.
 void solve_strains(const model::Model& model, const std::vector<std::size_t>& cases,
                    const statics::StaticOptions& options, Effective& effective, Matrix& whole, PhaseSums& means) {
-  lattice::Field<double> u(model.layout(), model.components());
-  std::vector<double> right_hand_side(static_cast<std::size_t>(model.layout().owned_count() * model.components()));
-  statics::StaticSolver solver(model, 0, u, options);
+  StrainSolver solver(model, options);
   const double rounding = mechanics::rounding_residual(model);
+  lattice::Field<double> u(model.layout(), model.components());
   for (const std::size_t j : cases) {
     mechanics::Tensor6 strain{};
     strain[j] = j < 3 ? 1 : 0.5;
-    // The springs push the uniform strain out of balance; what is added to it restores it.
-    u.zero();
-    mechanics::add_uniform_strain(model, strain, u);
-    solver.equilibrium().right_hand_side(u, right_hand_side.data());
-    effective.cases[j] = solver.solve(right_hand_side.data(), rounding, u);
+    effective.cases[j] = solver.solve(strain, rounding, u);
     if (effective.cases[j].stopped) throw RunError("stopped before the six load cases were solved");
-    mechanics::add_uniform_strain(model, strain, u);
     const mechanics::Tensor6 stress = mechanics::mean_stress(model, u);
     for (std::size_t i = 0; i < 6; ++i) whole[i][j] = stress[i];
     means.add(j, u);

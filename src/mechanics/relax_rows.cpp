@@ -13,19 +13,22 @@ template <int components>
 KOSHI_INLINE void apply_blocks(const RelaxRow& row, std::int64_t i, const V (&r)[6], V (&z)[6]) {
   const std::int64_t block = row.block[i / block_width];
   if (block < 0) {
-    const float* const inverse = row.uniform + 2 * ~block;
-    for (int a = 0; a < components; ++a) z[a] = inverse[a / 3] * r[a];
+    // As below, where the other elements are zero.
+    const float* const inverse = row.uniform + 3 * ~block;
+    for (int a = 0; a < components; ++a) z[a] = inverse[2] * (inverse[a / 3] * r[a]);
     return;
   }
-  const float* entry = row.blocks + components * (components + 1) / 2 * block_width * block + i % block_width;
+  const std::int16_t* entry = row.blocks + components * (components + 1) / 2 * block_width * block + i % block_width;
   for (int a = 0; a < components; ++a) {
     z[a] = V{};
     for (int b = 0; b <= a; ++b, entry += block_width) {
-      const V e = load(entry);
+      const V e = widened_integers(entry);
       z[a] += e * r[b];
       if (b < a) z[b] += e * r[a];
     }
   }
+  const V unit = load(row.units + block_width * block + i % block_width);
+  for (int a = 0; a < components; ++a) z[a] *= unit;
 }
 
 template <int components>

@@ -11,9 +11,10 @@ namespace koshi::mechanics {
 inline constexpr std::int64_t block_width = 16;
 
 /// A row of nodes; pointers to node i = 0 of the first component, the next one lies a pitch away. `block[g]` serves the
-/// block_width nodes from block_width g on: a negative entry ~m stands for the diagonal block uniform[2 m]
-/// (displacements), uniform[2 m + 1] (rotations); any other counts sets in `blocks`: the lower triangle of the inverse
-/// node block, row by row, each entry for block_width nodes.
+/// block_width nodes from block_width g on: a negative entry ~m stands for the diagonal block uniform[3 m]
+/// (displacements), uniform[3 m + 1] (rotations), in units of uniform[3 m + 2]; any other counts sets in `blocks`: the
+/// lower triangle of the inverse node block, row by row, each entry for block_width nodes, in units of its own for each
+/// node.
 struct RelaxRow {
   const float* b;
   const float* x;
@@ -23,7 +24,8 @@ struct RelaxRow {
   std::ptrdiff_t force_pitch;
   const std::int32_t* block;
   const float* uniform;
-  const float* blocks;
+  const std::int16_t* blocks;
+  const float* units;  ///< block_width for each set
   std::int64_t count;  ///< nodes
 };
 

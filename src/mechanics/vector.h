@@ -53,6 +53,14 @@ KOSHI_INLINE typename Vector<T>::type widened(const float* p) {
   return __builtin_convertvector(v, typename Vector<T>::type);
 }
 
+/// Integers as floats.
+KOSHI_INLINE Vector<float>::type widened_integers(const std::int16_t* p) {
+  typedef std::int16_t Integers __attribute__((vector_size(width<float> * sizeof(std::int16_t))));
+  Integers v;
+  __builtin_memcpy(&v, p, sizeof v);
+  return __builtin_convertvector(v, Vector<float>::type);
+}
+
 /// `value` in the last element, zero in the others.
 template <class T>
 KOSHI_INLINE typename Vector<T>::type last_lane(T value) {

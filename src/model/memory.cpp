@@ -30,9 +30,6 @@ double solver_bytes(const lattice::Grid& grid, int components, int ranks) {
     const std::int64_t pitch = (n[0] + 2 + 15) / 16 * 16;
     const double values = static_cast<double>(pitch * (n[1] + 2) * (n[2] + 2));
     bytes += 3.0 * 4 * components * values;
-    // The cells' constants are gone before the vectors come, and leave a hole in the heap that a vector fills if it
-    // fits.
-    if (const double constants = 4.0 * 7 * values; level.d == grid.d && constants < vector) bytes += constants;
     const double unknowns = static_cast<double>(level.node_count() * components);
     if (unknowns <= 8000)
       return bytes + ranks * (12.0 * 27 * components * unknowns + 12e6 * std::pow(unknowns / 4536, 4.0 / 3));
@@ -40,9 +37,10 @@ double solver_bytes(const lattice::Grid& grid, int components, int ranks) {
   }
 }
 
-// Where materials mix, the static solver keeps the constants of each distinct row of cells (spring_rows.h) and the
-// inverse blocks of each distinct group of 16 nodes that is not uniform (node_blocks.h). How many are distinct is told
-// from a sample of rows.
+// Where materials mix, the static solver keeps the kinds of each distinct row of cells, two bytes a cell, or their
+// seven constants where all differ (spring_rows.h), and the inverse blocks of each distinct group of 16 nodes that is
+// not uniform, two bytes an element and a unit for each node (node_blocks.h). How many are distinct is told from a
+// sample of rows.
 double mixed_bytes(const Definition& definition, const lattice::Grid& grid, int components) {
   const bool scattered = definition.varies_in_stiffness();
   if (definition.body.cells.empty() && definition.body.factors.empty() && definition.regions.empty() && !scattered)
@@ -83,8 +81,9 @@ double mixed_bytes(const Definition& definition, const lattice::Grid& grid, int 
   const double part = 1.0 / rows_sampled, count = static_cast<double>((n[1] + 1) * (n[2] + 1));
   const double distinct_rows = rows.size() > 12 ? part * static_cast<double>(rows.size()) : 0;
   const double distinct_groups = rows.size() > 12 ? part * static_cast<double>(groups.size()) : 0;
-  const double row_bytes = 4.0 * 7 * static_cast<double>(n[0] + 48);
-  const double group_bytes = 4.0 * static_cast<double>(components * (components + 1) / 2 * group_nodes);
+  const double cell_bytes = scattered && grid.cell_count() > 65535 ? 4.0 * 7 : 2.0;
+  const double row_bytes = cell_bytes * static_cast<double>(n[0] + 48);
+  const double group_bytes = static_cast<double>((components * (components + 1) + 4) * group_nodes);
   // Coarser levels: an eighth of the nodes each, twice the part of them near an interface.
   return count * (8.0 / 7 * distinct_rows * row_bytes + 4.0 / 3 * distinct_groups * group_bytes);
 }

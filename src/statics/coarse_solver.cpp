@@ -26,8 +26,7 @@ void add_cells(const Level& level, const std::vector<bool>& held, Mat matrix) {
       const std::int32_t row = level.springs().row(j, k);
       for (std::int64_t i = std::max(level.springs().span(row).first, 0); i < level.springs().span(row).last; ++i) {
         K = Eigen::MatrixXd::Zero(size, size);
-        for (int q = 0; q < mechanics::cell_constants; ++q)
-          K += level.springs().constants(row)[q * level.springs().pitch() + i] * basis[q];
+        for (int q = 0; q < mechanics::cell_constants; ++q) K += level.springs().constant(row, i, q) * basis[q];
         for (int corner = 0; corner < 8; ++corner) {
           Int3 node{i + (corner & 1), j + (corner >> 1 & 1), k + (corner >> 2)};
           for (int a = 0; a < 3; ++a)

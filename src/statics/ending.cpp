@@ -22,7 +22,24 @@ std::string history_text(const std::vector<double>& history) {
   return text;
 }
 
-// Young's modulus of the stiffest cell over that of the softest, factors included; cells without stiffness are voids.
+std::string hint(KSPConvergedReason reason, const std::vector<double>& history, double ratio) {
+  const double least = history.empty() ? 1 : *std::min_element(history.begin(), history.end());
+  if (reason == KSP_DIVERGED_NANORINF) return "check loads and units";
+  // A stiff part moves by what the soft one gives; rounding of that motion is a force of its own stiffness.
+  if (ratio >= most_contrast)
+    return fmt::format(
+        "the stiffest cell has {:.0e} times the stiffness of the softest, and where the soft one carries the load "
+        "rounding ends what can be reached: about {:.0e} is always solved; make the softest stiffer, or void",
+        ratio, most_contrast);
+  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC)
+    return "some motion of the body costs no energy or releases it; `koshi check` says what the springs can hold";
+  if (least < 1e-12) return "rounding ends what can be reached; take a tolerance of 1e-11 or more";
+  return "allow more iterations (-- -ksp_max_it 2000) or a larger analysis.tolerance; parts that hang together by "
+         "single nodes or by very soft material converge slowly";
+}
+
+}  // namespace
+
 double contrast(const model::Model& model) {
   double least = std::numeric_limits<double>::infinity(), most = 0;
   const model::SpringLattice& body = model.lattice;
@@ -33,24 +50,6 @@ double contrast(const model::Model& model) {
   });
   return model.communicator.max(most) / model.communicator.min(least);
 }
-
-std::string hint(KSPConvergedReason reason, const std::vector<double>& history, double contrast) {
-  const double least = history.empty() ? 1 : *std::min_element(history.begin(), history.end());
-  if (reason == KSP_DIVERGED_NANORINF) return "check loads and units";
-  // A stiff part moves by what the soft one gives; rounding of that motion is a force of its own stiffness.
-  if (contrast >= most_contrast)
-    return fmt::format(
-        "the stiffest cell has {:.0e} times the stiffness of the softest, and where the soft one carries the load "
-        "rounding ends what can be reached: about {:.0e} is always solved; make the softest stiffer, or void",
-        contrast, most_contrast);
-  if (reason == KSP_DIVERGED_INDEFINITE_MAT || reason == KSP_DIVERGED_INDEFINITE_PC)
-    return "some motion of the body costs no energy or releases it; `koshi check` says what the springs can hold";
-  if (least < 1e-12) return "rounding ends what can be reached; take a tolerance of 1e-11 or more";
-  return "allow more iterations (-- -ksp_max_it 2000) or a larger analysis.tolerance; parts that hang together by "
-         "single nodes or by very soft material converge slowly";
-}
-
-}  // namespace
 
 std::string end_in_words(KSPConvergedReason reason) {
   switch (reason) {

@@ -11,6 +11,10 @@
 
 namespace koshi::statics {
 
+/// Young's modulus of the stiffest cell over that of the softest, factors included; cells without stiffness are voids
+/// (collective).
+double contrast(const model::Model& model);
+
 /// "relative residual below the tolerance", "the residual grows" and the like.
 std::string end_in_words(KSPConvergedReason reason);
 

@@ -220,6 +220,10 @@ FreeMotions::Amounts FreeMotions::work(const double* x, bool absolute) const {
       if (components_ == 6) add(3 + a, 0.5 * x[at + (3 + a) * nodes]);
     }
   });
+  return amounts(sums);
+}
+
+FreeMotions::Amounts FreeMotions::amounts(std::vector<ExactSum>& sums) const {
   sum_ranks(sums, model_.communicator);
   Amounts total(free_.size(), Eigen::Matrix<double, 6, 1>::Zero());
   for (std::size_t s = 0; s < sums.size(); ++s)
@@ -230,9 +234,55 @@ FreeMotions::Amounts FreeMotions::work(const double* x, bool absolute) const {
 void FreeMotions::project(double* x) const {
   if (free_.empty()) return;
   Amounts motion = work(x, false);
+  keep_free(motion);
+  subtract(motion, x);
+}
+
+void FreeMotions::keep_free(Amounts& motion) const {
   for (std::size_t f = 0; f < free_.size(); ++f)
     motion[f] = free_[f].motions * (free_[f].motions.transpose() * motion[f]);
-  subtract(motion, x);
+}
+
+void FreeMotions::project(RowField<float>& x) const {
+  if (free_.empty()) return;
+  // Sums of a row, of the part that its last nodes belong to.
+  std::vector<ExactSum> sums(free_.size() * candidates);
+  std::array<double, candidates> row{};
+  std::size_t part = 0;
+  const auto close = [&](std::size_t next) {
+    for (std::size_t motion = 0; motion < candidates; ++motion) sums[part * candidates + motion] += row[motion];
+    row = {};
+    part = next;
+  };
+  const std::int64_t width = x.owned()[0];
+  const auto value = [&](std::int64_t at, int c) -> float& {
+    const std::int64_t line = at / width;
+    return x.row(line % x.owned()[1], line / x.owned()[1])[c * x.pitch() + at % width];
+  };
+  std::int64_t line = 0;
+  for_each_free_node([&](std::int64_t at, std::size_t f, const Vec3& X) {
+    if (f != part || at / width != line) close(f);
+    line = at / width;
+    for (int a = 0; a < 3; ++a) {
+      const double u = static_cast<double>(value(at, a));
+      row[static_cast<std::size_t>(a)] += u;
+      if (!free_[f].turns) continue;
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      row[static_cast<std::size_t>(3 + b)] += X[c] * u;
+      row[static_cast<std::size_t>(3 + c)] -= X[b] * u;
+      if (components_ == 6) row[static_cast<std::size_t>(3 + a)] += 0.5 * static_cast<double>(value(at, 3 + a));
+    }
+  });
+  close(0);
+  Amounts motion = amounts(sums);
+  keep_free(motion);
+  for_each_free_node([&](std::int64_t at, std::size_t f, const Vec3& X) {
+    for (int a = 0; a < 3; ++a) {
+      const int b = (a + 1) % 3, c = (a + 2) % 3;
+      value(at, a) -= static_cast<float>(motion[f](a) + motion[f](3 + b) * X[c] - motion[f](3 + c) * X[b]);
+      if (components_ == 6) value(at, 3 + a) -= static_cast<float>(0.5 * motion[f](3 + a));
+    }
+  });
 }
 
 void FreeMotions::subtract(const Amounts& motion, double* x) const {

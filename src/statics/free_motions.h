@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include "base/exact_sum.h"
 #include "statics/equilibrium.h"
 #include "statics/parts.h"
 
@@ -24,6 +25,9 @@ class FreeMotions {
   void require_balance(const double* b) const;
   /// Takes the free motions out of a vector of unknowns (collective).
   void project(double* x) const;
+  /// Takes them out of values on the nodes of a level, whose rotations are rho = (d/2) w as well; sums along rows are
+  /// rounded (collective).
+  void project(RowField<float>& x) const;
   /// Amounts of three translations and three rotations about each free part's centre.
   using Amounts = std::vector<Eigen::Matrix<double, 6, 1>>;
   /// Work of a vector of unknowns on the six motions of each free part (collective).
@@ -49,6 +53,9 @@ class FreeMotions {
   };
   /// With `absolute`, work of the absolute values of the terms.
   Amounts work(const double* x, bool absolute) const;
+  Amounts amounts(std::vector<ExactSum>& sums) const;
+  /// From work on the six motions to the part along the free ones.
+  void keep_free(Amounts& motion) const;
   template <class F>
   void for_each_free_node(F&& use) const;
   std::string title(std::int32_t part) const;

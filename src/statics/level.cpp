@@ -76,15 +76,15 @@ RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& fin
   return result;
 }
 
-Level::Level(LevelGrid grid, int components, const RowField<float>& constants, FixedNodes fixed, SurfaceTerms* surface)
-    : b(grid.owned(), components),
-      x(grid.owned(), components),
-      grid_(std::move(grid)),
+Level::Level(LevelGrid grid, int components, RowField<float> constants, FixedNodes fixed, SurfaceTerms* surface)
+    : grid_(std::move(grid)),
       components_(components),
       fixed_(std::move(fixed)),
-      springs_(constants),
+      springs_(std::move(constants)),
       blocks_(springs_, fixed_, components,
               surface != nullptr ? surface->node_blocks() : std::vector<mechanics::CutForces::NodeBlock>{}),
+      b(grid_.owned(), components),
+      x(grid_.owned(), components),
       surface_(surface),
       y_(grid_.owned(), components),
       sweep_(components, grid_.owned()[0], grid_.owned()[1], cells_below(grid_), 1, cache),
@@ -110,13 +110,12 @@ void Level::add_springs(std::int64_t j, std::int64_t k, float* const* force) {
 }
 
 mechanics::RelaxRow Level::relax_row(std::int64_t j, std::int64_t k, const float* force) {
-  return {b.row(j, k),    x.row(j, k),       y_.row(j, k),      b.pitch(),        force,
-          sweep_.pitch(), blocks_.row(j, k), blocks_.uniform(), blocks_.blocks(), grid_.owned()[0]};
+  return {b.row(j, k),       x.row(j, k),       y_.row(j, k),     b.pitch(),       force,           sweep_.pitch(),
+          blocks_.row(j, k), blocks_.uniform(), blocks_.blocks(), blocks_.units(), grid_.owned()[0]};
 }
 
 template <class F>
 void Level::for_each_row(F&& use) {
-  const auto& kernels = mechanics::strip_kernels<float>();
   const Int3& owned = grid_.owned();
   x.exchange(*grid_.halo);
   // The strip whose constants were prepared last.
@@ -127,7 +126,7 @@ void Level::for_each_row(F&& use) {
     const std::int32_t row = springs_.row(j, k);
     const auto [first, last] = springs_.span(row);
     if (last <= i || i + cells <= first) return nullptr;
-    if (row != last_row || i != last_i) kernels.prepare_rows(springs_.constants(row) + i, springs_.pitch(), cells, to);
+    if (row != last_row || i != last_i) springs_.prepare(row, i, cells, to);
     last_row = row;
     last_i = i;
     return to;
@@ -171,6 +170,16 @@ void Level::relax(int degree, double bound, bool from_zero) {
     }
     std::swap(x, y_);
   }
+}
+
+void Level::make_image(RowField<float>& v) {
+  std::swap(x, v);
+  for_each_row([&](std::int64_t, std::int64_t, const mechanics::RelaxRow& row) {
+    for (int c = 0; c < components_; ++c)
+      for (std::int64_t i = 0; i < row.count; ++i) row.y[c * row.pitch + i] = -row.force[c * row.force_pitch + i];
+  });
+  std::swap(x, v);
+  clear_fixed(fixed_, y_);
 }
 
 double Level::stretch(int steps) {

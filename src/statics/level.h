@@ -42,14 +42,23 @@ RowField<float> coarsened(const RowField<float>& constants, const LevelGrid& fin
 /// The stiffness K of one level, in single precision, with relaxation. Fixed components and nodes without a cell stay
 /// zero; all functions are collective.
 class Level {
+  LevelGrid grid_;
+  int components_;
+  FixedNodes fixed_;
+  // The springs come before the fields: what they are made from is free again when those take their memory.
+  SpringRows springs_;
+  NodeBlocks blocks_;
+
  public:
   /// `surface`: what cells at surfaces add, on the finest level; must outlive it.
-  Level(LevelGrid grid, int components, const RowField<float>& constants, FixedNodes fixed,
-        SurfaceTerms* surface = nullptr);
+  Level(LevelGrid grid, int components, RowField<float> constants, FixedNodes fixed, SurfaceTerms* surface = nullptr);
 
   /// x += polynomial(B K) B (b - K x): `degree` steps of Chebyshev's iteration of the fourth kind for eigenvalues of
   /// B K up to `bound` (J. Lottes, doi:10.1002/nla.2535), which needs no lower bound. `from_zero`: x is taken as zero.
   void relax(int degree, double bound, bool from_zero);
+  /// image() = K v on free components; fills the ghosts of v. Relaxation and transfer use the memory of the image.
+  void make_image(RowField<float>& v);
+  const RowField<float>& image() const { return y_; }
   /// The largest eigenvalue of B K, from below within some per cent: by how much `steps` applications stretch a vector.
   double stretch(int steps);
   /// Right-hand side of the next coarser level: its b = P^T (b - K x), P the trilinear interpolation of all components
@@ -75,13 +84,8 @@ class Level {
   void add_springs(std::int64_t j, std::int64_t k, float* const* force);
   mechanics::RelaxRow relax_row(std::int64_t j, std::int64_t k, const float* force);
 
-  LevelGrid grid_;
-  int components_;
-  FixedNodes fixed_;
   FixedNodes sprung_;                       ///< those with springs
   std::vector<std::size_t> sprung_of_row_;  ///< the first of each row, and the end; empty: none anywhere
-  SpringRows springs_;
-  NodeBlocks blocks_;
   SurfaceTerms* surface_;
   RowField<float> y_;
   mechanics::CellSweep<float> sweep_;

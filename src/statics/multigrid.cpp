@@ -37,6 +37,17 @@ void unpack(const std::string& bytes, const lattice::Partition& partition, int r
   }
 }
 
+RowField<float> constants_of(const Level& level) {
+  RowField<float> constants(level.grid().owned(), mechanics::cell_constants);
+  const Int3& n = constants.owned();
+  for (std::int64_t k = 0; k < n[2]; ++k)
+    for (std::int64_t j = 0; j < n[1]; ++j)
+      for (int q = 0; q < mechanics::cell_constants; ++q)
+        for (std::int64_t i = 0; i < n[0]; ++i)
+          constants.row(j, k)[q * constants.pitch() + i] = level.springs().constant(level.springs().row(j, k), i, q);
+  return constants;
+}
+
 LevelGrid on_one_rank(const LevelGrid& grid) {
   LevelGrid whole;
   whole.grid = grid.grid;
@@ -73,14 +84,13 @@ FixedNodes gathered(const FixedNodes& fixed, const LevelGrid& grid, const LevelG
 /// The whole of a distributed level on this rank.
 class Hierarchy::Gathered {
  public:
-  Gathered(const Level& level, const RowField<float>& constants, const CycleOptions& options)
-      : level_(level), grid_(on_one_rank(level.grid())) {
-    RowField<float> whole(grid_.owned(), constants.components());
-    collect(constants, whole);
+  Gathered(const Level& level, const CycleOptions& options) : level_(level), grid_(on_one_rank(level.grid())) {
+    RowField<float> whole(grid_.owned(), mechanics::cell_constants);
+    collect(constants_of(level), whole);
     whole.exchange(*grid_.halo);
     CycleOptions serial = options;
     serial.serial = true;
-    hierarchy_ = std::make_unique<Hierarchy>(grid_, level.components(), whole,
+    hierarchy_ = std::make_unique<Hierarchy>(grid_, level.components(), std::move(whole),
                                              gathered(level.fixed(), level.grid(), grid_), serial);
   }
 
@@ -110,32 +120,33 @@ class Hierarchy::Gathered {
   std::unique_ptr<Hierarchy> hierarchy_;
 };
 
-Hierarchy::Hierarchy(const LevelGrid& grid, int components, const RowField<float>& constants, const FixedNodes& fixed,
+Hierarchy::Hierarchy(const LevelGrid& grid, int components, RowField<float> constants, const FixedNodes& fixed,
                      const CycleOptions& options)
     : options_(options) {
   options_.serial = options.serial || grid.halo->communicator().size() == 1;
-  levels_.push_back(std::make_unique<Level>(grid, components, constants, fixed, options.surface));
   // What cells at surfaces add is known to the finest level alone, so that one is relaxed however small it is.
-  bool relaxed = options.surface == nullptr;
+  SurfaceTerms* surface = options.surface;
   options_.surface = nullptr;
-  RowField<float> merged;
-  const RowField<float>* last = &constants;
+  LevelGrid fine = grid;
+  FixedNodes held = fixed;
   while (true) {
-    const LevelGrid& fine = levels_.back()->grid();
     const std::int64_t nodes = fine.grid.node_count();
     const bool small = options_.serial ? nodes * components <= direct_unknowns : nodes <= gathered_nodes;
-    if ((small && relaxed) || !fine.can_coarsen()) break;
-    relaxed = true;
-    const LevelGrid coarse = fine.coarsened();
-    merged = coarsened(*last, fine, coarse);
-    last = &merged;
-    FixedNodes held = coarsened(levels_.back()->fixed(), fine.owned(), coarse.owned());
-    levels_.push_back(std::make_unique<Level>(coarse, components, merged, std::move(held)));
+    const bool last = (small && surface == nullptr) || !fine.can_coarsen();
+    const LevelGrid coarse = last ? LevelGrid{} : fine.coarsened();
+    RowField<float> merged;
+    if (!last) merged = coarsened(constants, fine, coarse);
+    levels_.push_back(std::make_unique<Level>(fine, components, std::move(constants), std::move(held), surface));
+    if (last) break;
+    constants = std::move(merged);
+    held = coarsened(levels_.back()->fixed(), fine.owned(), coarse.owned());
+    fine = coarse;
+    surface = nullptr;
   }
   if (options_.serial) {
     coarse_ = std::make_unique<CoarseSolver>(*levels_.back(), options_.shift);
   } else {
-    gathered_ = std::make_unique<Gathered>(*levels_.back(), *last, options_);
+    gathered_ = std::make_unique<Gathered>(*levels_.back(), options_);
   }
 }
 

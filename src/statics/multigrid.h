@@ -27,8 +27,9 @@ struct CycleOptions {
 /// ranks, every rank gets the whole of it and goes on alone.
 class Hierarchy {
  public:
-  /// `constants` with ghosts, normalised to about one (collective).
-  Hierarchy(const LevelGrid& grid, int components, const RowField<float>& constants, const FixedNodes& fixed,
+  /// `constants` with ghosts, normalised to about one; those of a level are free again before its fields take memory
+  /// (collective).
+  Hierarchy(const LevelGrid& grid, int components, RowField<float> constants, const FixedNodes& fixed,
             const CycleOptions& options);
   ~Hierarchy();
 

@@ -2,7 +2,11 @@
 
 #include <Eigen/Cholesky>
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
+#include <span>
 #include <string>
 #include <unordered_map>
 
@@ -15,6 +19,9 @@ using mechanics::block_width;
 using mechanics::cell_constants;
 /// A node's block, without memory of its own on the heap.
 using Block = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, 6, 6>;
+
+// Of the integers that stand for a block's elements.
+double unit_of(const Block& B) { return B.cwiseAbs().maxCoeff() / std::numeric_limits<std::int16_t>::max(); }
 
 /// What a node's block has beside that of the springs.
 using More = mechanics::CutForces::NodeBlock;
@@ -63,7 +70,7 @@ class BlockMaker {
     return B;
   }
 
-  /// Are all cells around nodes first ... last - 1 alike and not empty?
+  /// Are all cells around nodes first ... last - 1 alike?
   bool is_uniform(const CellRows& rows, std::int64_t first, std::int64_t last) const {
     for (int q = 0; q < cell_constants; ++q) {
       const float k = constant(rows, first, 0, q);
@@ -71,13 +78,13 @@ class BlockMaker {
         for (int corner = 0; corner < 8; ++corner)
           if (constant(rows, i, corner, q) != k) return false;
     }
-    return !is_empty(rows, first);
+    return true;
   }
 
  private:
   // Constant q of the cell in which node i is the corner; corner bits: 1 = the node is the cell's upper end.
   float constant(const CellRows& rows, std::int64_t i, int corner, int q) const {
-    return springs_.constants(rows[static_cast<std::size_t>(corner >> 1)])[q * springs_.pitch() + i - (corner & 1)];
+    return springs_.constant(rows[static_cast<std::size_t>(corner >> 1)], i - (corner & 1), q);
   }
 
   const SpringRows& springs_;
@@ -89,10 +96,26 @@ class BlockMaker {
 struct Group {
   CellRows rows;
   std::int64_t first, last;
-  std::array<FixedNode, block_width> held;
-  const More* more;  ///< of its nodes, as many as `more_count`
-  std::int64_t more_count;
+  std::span<const FixedNode> held;
+  std::span<const More> more;
 };
+
+// The first element of a list whose node is i; null if there is none.
+template <class T>
+const T* of_node(std::span<const T> list, std::int64_t i) {
+  const auto found = std::ranges::find_if(list, [i](const T& entry) { return entry.node[0] == i; });
+  return found == list.end() ? nullptr : &*found;
+}
+
+// What of a list, in memory's order, belongs to nodes of row (j, k) before `last`; moves on behind it.
+template <class T>
+std::span<const T> part_of(const std::vector<T>& list, std::size_t& next, const Int3& last) {
+  const std::size_t first = next;
+  while (next < list.size() && list[next].node[2] == last[2] && list[next].node[1] == last[1] &&
+         list[next].node[0] < last[0])
+    ++next;
+  return {list.data() + first, next - first};
+}
 
 }  // namespace
 
@@ -103,8 +126,7 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
   const BlockMaker maker(springs, components);
   std::unordered_map<std::string, std::int32_t> known;
   std::vector<Group> distinct;
-  auto next_fixed = fixed.begin();
-  auto next_more = more.begin();
+  std::size_t next_fixed = 0, next_more = 0;
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j) {
       const CellRows rows{springs.row(j, k), springs.row(j - 1, k), springs.row(j, k - 1), springs.row(j - 1, k - 1)};
@@ -113,40 +135,35 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
       empty_.push_back(empty);
       for (std::int64_t first = 0; first < owned[0]; first += block_width) {
         const std::int64_t last = std::min(first + block_width, owned[0]);
-        Group group{rows, first, last, {}, more.data() + (next_more - more.begin()), 0};
-        for (;
-             next_more != more.end() && next_more->node[2] == k && next_more->node[1] == j && next_more->node[0] < last;
-             ++next_more)
-          ++group.more_count;
-        bool any_fixed = false;
-        for (; next_fixed != fixed.end() && next_fixed->node[2] == k && next_fixed->node[1] == j &&
-               next_fixed->node[0] < last;
-             ++next_fixed) {
-          group.held[static_cast<std::size_t>(next_fixed->node[0] - first)] = *next_fixed;
-          any_fixed = true;
-        }
+        const Int3 end{last, j, k};
+        const Group group{rows, first, last, part_of(fixed, next_fixed, end), part_of(more, next_more, end)};
         if (empty) {
           groups_.push_back(0);
           continue;
         }
-        if (group.more_count > 0) {
+        if (!group.more.empty()) {
           groups_.push_back(static_cast<std::int32_t>(distinct.size()));
           distinct.push_back(group);
           continue;
         }
         std::string key(reinterpret_cast<const char*>(rows.data()), sizeof rows);
         key.append(reinterpret_cast<const char*>(&first), sizeof first);
-        for (std::size_t i = 0; any_fixed && i < group.held.size(); ++i) {
-          key.push_back(static_cast<char>(group.held[i].mask));
-          key.append(reinterpret_cast<const char*>(group.held[i].spring.data()), sizeof group.held[i].spring);
+        for (const FixedNode& held : group.held) {
+          key.push_back(static_cast<char>(held.node[0] - first));
+          key.push_back(static_cast<char>(held.mask));
+          key.append(reinterpret_cast<const char*>(held.spring.data()), sizeof held.spring);
         }
         const auto [entry, is_new] = known.try_emplace(key, 0);
-        if (is_new && !any_fixed && maker.is_uniform(rows, first, last)) {
+        if (is_new && group.held.empty() && maker.is_uniform(rows, first, last)) {
           // By symmetry the block is a multiple of one for displacements and for rotations.
-          entry->second = ~static_cast<std::int32_t>(uniform_.size() / 2);
-          const Block B = maker.inverse(rows, first, {}, nullptr);
-          uniform_.push_back(static_cast<float>(B(0, 0)));
-          uniform_.push_back(static_cast<float>(B(components - 1, components - 1)));
+          entry->second = ~static_cast<std::int32_t>(uniform_.size() / 3);
+          const Block B = maker.is_empty(rows, first) ? Block::Zero(components, components).eval()
+                                                      : maker.inverse(rows, first, {}, nullptr);
+          // Rounded as in other groups: a node's bits do not depend on where its group begins.
+          const double unit = unit_of(B);
+          for (const int c : {0, components - 1})
+            uniform_.push_back(unit > 0 ? static_cast<float>(std::lround(B(c, c) / unit)) : 0);
+          uniform_.push_back(static_cast<float>(unit));
         } else if (is_new) {
           entry->second = static_cast<std::int32_t>(distinct.size());
           distinct.push_back(group);
@@ -158,17 +175,20 @@ NodeBlocks::NodeBlocks(const SpringRows& springs, const FixedNodes& fixed, int c
   // A mixed body has as many distinct groups as nodes: their memory is taken once, at its size.
   const std::size_t set = static_cast<std::size_t>(components * (components + 1) / 2 * block_width);
   blocks_.resize(distinct.size() * set);
+  units_.resize(distinct.size() * static_cast<std::size_t>(block_width));
   for (std::size_t g = 0; g < distinct.size(); ++g) {
     const Group& group = distinct[g];
-    const More* of_node = group.more;
     for (std::int64_t i = group.first; i < group.last; ++i) {
-      const bool has = of_node != group.more + group.more_count && of_node->node[0] == i;
-      const More* const beside = has ? of_node++ : nullptr;
       if (maker.is_empty(group.rows, i)) continue;
-      const Block B = maker.inverse(group.rows, i, group.held[static_cast<std::size_t>(i - group.first)], beside);
-      float* to = blocks_.data() + g * set + (i - group.first);
+      const FixedNode* const held = of_node(group.held, i);
+      const Block B = maker.inverse(group.rows, i, held != nullptr ? *held : FixedNode{}, of_node(group.more, i));
+      const double unit = unit_of(B);
+      const auto node = static_cast<std::size_t>(i - group.first);
+      units_[g * static_cast<std::size_t>(block_width) + node] = static_cast<float>(unit);
+      if (unit == 0) continue;
+      std::int16_t* to = blocks_.data() + g * set + node;
       for (int a = 0; a < components; ++a)
-        for (int b = 0; b <= a; ++b, to += block_width) *to = static_cast<float>(B(a, b));
+        for (int b = 0; b <= a; ++b, to += block_width) *to = static_cast<std::int16_t>(std::lround(B(a, b) / unit));
     }
   }
 }

@@ -86,9 +86,9 @@ Preconditioner::Preconditioner(const model::Model& model, const FixedNodes& fixe
   for (std::size_t m = 1; m < by_material.size(); ++m)
     options.bound = std::max(options.bound, relaxation_bound(by_material[m], components_));
   options.shift = free.count() > 0 ? 1e-8 : 0;
-  const double largest = largest_of(by_material);
+  const double largest = unit_ = largest_of(by_material);
   const LevelGrid grid{body.grid, body.partition, body.halo};
-  const RowField<float> constants = fine_constants(body, by_material, largest);
+  const auto constants = [&] { return fine_constants(body, by_material, largest); };
   const FixedNodes held = held_nodes(body, fixed, largest);
   if (body.fraction.components() != 0) {
     surface_ = std::make_unique<SurfaceTerms>(body, 1 / largest);
@@ -96,7 +96,7 @@ Preconditioner::Preconditioner(const model::Model& model, const FixedNodes& fixe
     // A cell's own bound would be far too high where little of it is inside.
     constexpr int steps = 40;
     constexpr double margin = 1.1;
-    const double stretch = Level(grid, components_, constants, held, surface_.get()).stretch(steps);
+    const double stretch = Level(grid, components_, constants(), held, surface_.get()).stretch(steps);
     options.bound = std::max(options.bound, margin * stretch);
   }
   // Nearly incompressible springs have a wide spectrum that the relaxation must cover.
@@ -104,7 +104,7 @@ Preconditioner::Preconditioner(const model::Model& model, const FixedNodes& fixe
   // A body of a few cells across bends at little cost, and coarse cells take it for stiffer than it is.
   constexpr std::int64_t thin = 3;
   if (*std::ranges::min_element(body.grid.cells) <= thin) options.degree = 5;
-  hierarchy_ = std::make_unique<Hierarchy>(grid, components_, constants, held, options);
+  hierarchy_ = std::make_unique<Hierarchy>(grid, components_, constants(), held, options);
 }
 
 template <class T, class F>
@@ -114,6 +114,11 @@ void Preconditioner::for_each_row(RowField<float>& field, T* unknowns, F&& copy)
     for (std::int64_t k = 0; k < n[2]; ++k)
       for (std::int64_t j = 0; j < n[1]; ++j, unknowns += n[0])
         copy(field.row(j, k) + c * field.pitch(), unknowns, n[0]);
+}
+
+void Preconditioner::cycle() {
+  hierarchy_->cycle();
+  free_.project(hierarchy_->finest().x);
 }
 
 void Preconditioner::apply(const double* r, double* z) {

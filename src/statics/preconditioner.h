@@ -14,6 +14,11 @@ class Preconditioner {
  public:
   Preconditioner(const model::Model& model, const FixedNodes& fixed, const FreeMotions& free);
   void apply(const double* r, double* z);
+  /// The same from the finest level's right-hand side to its solution.
+  void cycle();
+  Level& finest() { return hierarchy_->finest(); }
+  /// Stiffness that the levels take for 1 [N/m].
+  double unit() const { return unit_; }
   int level_count() const { return hierarchy_->level_count(); }
 
  private:
@@ -22,6 +27,7 @@ class Preconditioner {
   void for_each_row(RowField<float>& field, T* unknowns, F&& copy) const;
 
   int components_;
+  double unit_ = 0;
   const FreeMotions& free_;
   std::unique_ptr<SurfaceTerms> surface_;
   std::unique_ptr<Hierarchy> hierarchy_;
