@@ -68,9 +68,9 @@ std::string stiffness_text(const model::Model& model, const homogenize::Effectiv
     for (const double entry : row) largest = std::max(largest, std::abs(entry));
   for (std::size_t i = 0; i < 6; ++i) {
     text += fmt::format("  {}", component[i]);
-    // What rounding leaves would hide the pattern of zeros.
+    // What rounding and the tolerance leave would hide the pattern of zeros.
     for (const double entry : C.voigt[i])
-      text += fmt::format(" {:12.5g}", std::abs(entry) > 1e-12 * largest ? entry : 0.0);
+      text += fmt::format(" {:12.5g}", std::abs(entry) > 1e-9 * largest ? entry : 0.0);
     text += '\n';
   }
   text += fmt::format("  asymmetry {:.1e}\n", effective.asymmetry);

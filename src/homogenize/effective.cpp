@@ -10,6 +10,7 @@
 #include "homogenize/bounds.h"
 #include "homogenize/cells.h"
 #include "homogenize/held.h"
+#include "homogenize/phase_sums.h"
 #include "homogenize/structure.h"
 #include "koshi/error.h"
 #include "mechanics/uniform_strain.h"
@@ -40,50 +41,6 @@ void count_phases(const model::Model& model, Effective& effective) {
   effective.density = mass.value() / (cells * std::pow(body.grid.d, 3));
 }
 
-// Mean stress and strain of the solid phases, summed over cells.
-class PhaseSums {
- public:
-  PhaseSums(const model::Model& model, const std::vector<Phase>& phases) : model_(model) {
-    constexpr std::size_t most = 100;
-    if (phases.size() > most) return;
-    slot_.resize(model.materials.size());
-    for (const Phase& phase : phases) {
-      if (phase.material == 0) continue;
-      slot_[phase.material] = means_.size();
-      means_.push_back({phase.material, {}, {}});
-      cells_.push_back(phase.fraction * static_cast<double>(model.lattice.grid.cell_count()));
-    }
-  }
-  // Column j from the displacements of case j, ghosts set (collective).
-  void add(std::size_t j, const lattice::Field<double>& u) {
-    if (means_.empty()) return;
-    std::vector<ExactSum> sums(12 * means_.size());
-    const std::uint16_t* const cell = model_.lattice.cell.component(0);
-    for_each_cell(model_, [&](std::int64_t n) {
-      if (cell[n] == 0) return;
-      const mechanics::CellState state = mechanics::cell_state(model_.lattice, u, n);
-      ExactSum* const sum = &sums[12 * slot_[cell[n]]];
-      for (std::size_t v = 0; v < 6; ++v) {
-        sum[v] += state.stress[v];
-        sum[6 + v] += (v < 3 ? 1 : 2) * state.strain[v];
-      }
-    });
-    sum_ranks(sums, model_.communicator);
-    for (std::size_t p = 0; p < means_.size(); ++p)
-      for (std::size_t v = 0; v < 6; ++v) {
-        means_[p].stress[v][j] = sums[12 * p + v].value() / cells_[p];
-        means_[p].strain[v][j] = sums[12 * p + 6 + v].value() / cells_[p];
-      }
-  }
-  const std::vector<PhaseMeans>& means() const { return means_; }
-
- private:
-  const model::Model& model_;
-  std::vector<std::size_t> slot_;
-  std::vector<PhaseMeans> means_;
-  std::vector<double> cells_;
-};
-
 Matrix product(const Matrix& a, const Matrix& b) {
   Matrix c{};
   for (std::size_t i = 0; i < 6; ++i)
@@ -92,9 +49,9 @@ Matrix product(const Matrix& a, const Matrix& b) {
   return c;
 }
 
-// The matrix made symmetric, and how far it was from that.
-Matrix symmetric(const Matrix& whole, double& asymmetry) {
-  double largest = 0, difference = 0;
+// The matrix made symmetric, and how far it was from that; `difference`: of entries that were made equal before.
+Matrix symmetric(const Matrix& whole, double difference, double& asymmetry) {
+  double largest = 0;
   Matrix result;
   for (std::size_t i = 0; i < 6; ++i)
     for (std::size_t j = 0; j < 6; ++j) {
@@ -131,6 +88,13 @@ class StrainSolver {
     return report;
   }
 
+  // Whether a solve ends by the energy of its error, and the two below serve.
+  bool by_energy() const { return mixed_.has_value(); }
+  statics::ByteField kept(const mechanics::Tensor6& strain, const lattice::Field<double>& u) const {
+    return mixed_->kept(strain, u);
+  }
+  double work(const statics::ByteField& kept) const { return mixed_->work(kept); }
+
  private:
   const model::Model& model_;
   std::optional<statics::MixedGradients> mixed_;
@@ -139,21 +103,34 @@ class StrainSolver {
   std::optional<statics::StaticSolver> double_;
 };
 
-// Columns of C: mean stresses under the mean strains.
-void solve_strains(const model::Model& model, const std::vector<std::size_t>& cases,
-                   const statics::StaticOptions& options, Effective& effective, Matrix& whole, PhaseSums& means) {
+// Columns of C: mean stresses under the mean strains. Returns the largest difference of opposite entries that it made
+// equal [Pa].
+double solve_strains(const model::Model& model, const std::vector<std::size_t>& cases,
+                     const statics::StaticOptions& options, Effective& effective, Matrix& whole, PhaseSums& means) {
   StrainSolver solver(model, options);
   const double rounding = mechanics::rounding_residual(model);
   lattice::Field<double> u(model.layout(), model.components());
+  std::vector<statics::ByteField> kept;
+  double difference = 0;
   for (const std::size_t j : cases) {
     mechanics::Tensor6 strain{};
     strain[j] = j < 3 ? 1 : 0.5;
     effective.cases[j] = solver.solve(strain, rounding, u);
     if (effective.cases[j].stopped) throw RunError("stopped before the six load cases were solved");
-    const mechanics::Tensor6 stress = mechanics::mean_stress(model, u);
+    const mechanics::Tensor6 stress = means.add(j, u);
     for (std::size_t i = 0; i < 6; ++i) whole[i][j] = stress[i];
-    means.add(j, u);
+    // C_ij = u_i . K u_j / V has an error of second order; Sigma_ij lacks the work of the residual on the other case.
+    const double volume = static_cast<double>(model.lattice.grid.cell_count()) * std::pow(model.lattice.grid.d, 3);
+    if (!solver.by_energy()) continue;
+    for (std::size_t earlier = 0; earlier < kept.size(); ++earlier) {
+      const std::size_t i = cases[earlier];
+      whole[i][j] -= solver.work(kept[earlier]) / volume;
+      difference = std::max(difference, std::abs(whole[i][j] - whole[j][i]));
+      whole[j][i] = whole[i][j];
+    }
+    if (j != cases.back()) kept.push_back(solver.kept(strain, u));
   }
+  return difference;
 }
 
 // C as the inverse of the mean strains under the forces of uniform stresses.
@@ -172,7 +149,7 @@ void solve_stresses(const model::Model& model, const statics::StaticOptions& opt
     means.add(j, u);
   }
   // Engineering strains: S is symmetric as C is, and the inverse of either is the other.
-  const auto C = material::compliance({symmetric(compliance, effective.asymmetry)});
+  const auto C = material::compliance({symmetric(compliance, 0, effective.asymmetry)});
   if (!C) throw RunError("the body gives way to some stress without end: no stiffness can be told");
   effective.stiffness.voigt = *C;
   effective.means = means.means();
@@ -227,8 +204,8 @@ Effective effective_stiffness(const model::Model& model, const statics::StaticOp
   PhaseSums means(model, effective.phases);
   if (boundary == Boundary::periodic) {
     Matrix whole{};
-    solve_strains(model, groups_of_cases(boundary)[0], options, effective, whole, means);
-    effective.stiffness.voigt = symmetric(whole, effective.asymmetry);
+    const double difference = solve_strains(model, groups_of_cases(boundary)[0], options, effective, whole, means);
+    effective.stiffness.voigt = symmetric(whole, difference, effective.asymmetry);
     effective.means = means.means();
     return effective;
   }
@@ -241,16 +218,17 @@ Effective effective_stiffness(const model::Model& model, const statics::StaticOp
     return effective;
   }
   Matrix whole{};
+  double difference = 0;
   for (const std::vector<std::size_t>& cases : groups_of_cases(boundary)) {
     hold_surface(boundary, cases, held);
-    solve_strains(held, cases, options, effective, whole, means);
+    difference = std::max(difference, solve_strains(held, cases, options, effective, whole, means));
   }
   // Mirror images take back what one box has of stresses of another kind than the strain.
   if (boundary == Boundary::mixed)
     for (std::size_t i = 0; i < 6; ++i)
       for (std::size_t j = 0; j < 6; ++j)
         if (i != j && (i >= 3 || j >= 3)) whole[i][j] = 0;
-  effective.stiffness.voigt = symmetric(whole, effective.asymmetry);
+  effective.stiffness.voigt = symmetric(whole, difference, effective.asymmetry);
   effective.means = means.means();
   return effective;
 }

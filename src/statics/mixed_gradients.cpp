@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/exact_sum.h"
 #include "base/out_of_memory.h"
@@ -18,6 +19,15 @@ constexpr double most_contrast = 1e4;
 // Fall of the residual after which it is taken anew: what single precision has left of its seven digits is then as
 // good as the steps that made it.
 constexpr double fall = 1e-3;
+
+// Energy that conjugate gradients have yet to release, from what the last three steps have: a geometric series
+// (Hestenes and Stiefel 1952: the error's energy is the sum of all that is to come).
+double to_come(const std::vector<double>& released) {
+  const std::size_t n = released.size();
+  if (n < 3) return std::numeric_limits<double>::infinity();
+  const double ratio = std::sqrt(released[n - 1] / released[n - 3]);
+  return ratio < 1 ? released[n - 1] * ratio / (1 - ratio) : std::numeric_limits<double>::infinity();
+}
 
 // Sum of products along a row, in an order that depends on its length alone.
 double row_product(const float* a, const float* b, std::int64_t count) {
@@ -137,6 +147,22 @@ double MixedGradients::advance(double alpha, lattice::Field<double>& u) {
   return unit_ * std::sqrt(square.value());
 }
 
+ByteField MixedGradients::kept(const mechanics::Tensor6& mean_strain, const lattice::Field<double>& u) const {
+  const lattice::Layout& layout = model_.layout();
+  const double d = model_.lattice.grid.d;
+  // In the units of the level: lengths of spacings, rotations rho = (d/2) w.
+  return ByteField(layout.owned(), model_.components(), [&](int c, std::int64_t i, std::int64_t j, std::int64_t k) {
+    const double value = u.component(c)[layout.index(i, j, k)];
+    if (c >= 3) return value / 2;
+    const Vec3 affine = mechanics::uniform_displacement(model_, mean_strain, layout.global({i, j, k}));
+    return (value - affine[static_cast<std::size_t>(c)]) / d;
+  });
+}
+
+double MixedGradients::work(const ByteField& kept) const {
+  return unit_ * model_.lattice.grid.d * kept.product(preconditioner_->finest().b, model_.communicator);
+}
+
 SolveReport MixedGradients::solve(const mechanics::Tensor6& mean_strain, double absolute, lattice::Field<double>& u) {
   SolveReport report;
   const double start = steady_seconds();
@@ -152,13 +178,19 @@ SolveReport MixedGradients::solve(const mechanics::Tensor6& mean_strain, double 
   Level& level = preconditioner_->finest();
   direction_.zero();
   double norm = take_residual(u), taken = norm, rz = 0;
-  const double reference = norm, end = std::max(options_.tolerance * reference, absolute);
+  const double reference = norm;
+  // Energies in units of the level.
+  std::vector<double> released;
+  double all_released = 0;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   while (true) {
     report.relative_residual = reference > 0 ? norm / reference : 0;
     report.residual_history.push_back(report.relative_residual);
     if (options_.progress) options_.progress(report.iterations, report.relative_residual);
-    if (norm <= end) reason = norm <= absolute ? KSP_CONVERGED_ATOL : KSP_CONVERGED_RTOL;
+    if (norm <= absolute)
+      reason = KSP_CONVERGED_ATOL;
+    else if (to_come(released) <= options_.tolerance * all_released)
+      reason = KSP_CONVERGED_RTOL;
     if (!std::isfinite(norm)) reason = KSP_DIVERGED_NANORINF;
     report.stopped = options_.stop && options_.stop();
     if (reason != KSP_CONVERGED_ITERATING || report.stopped) break;
@@ -177,7 +209,10 @@ SolveReport MixedGradients::solve(const mechanics::Tensor6& mean_strain, double 
     if (work < 0) reason = KSP_DIVERGED_INDEFINITE_MAT;
     if (reason != KSP_CONVERGED_ITERATING) break;
     norm = advance(rz / work, u);
-    if (norm <= std::max(end, fall * taken)) {
+    released.push_back(rz * rz / work);
+    all_released += released.back();
+    const bool ends = norm <= absolute || to_come(released) <= options_.tolerance * all_released;
+    if (ends || norm <= fall * taken) {
       mechanics::exchange_displacements(model_, mean_strain, u);
       norm = taken = take_residual(u);
     }

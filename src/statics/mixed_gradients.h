@@ -6,6 +6,7 @@
 #include "koshi/statics.h"
 #include "mechanics/cell_stress.h"
 #include "mechanics/force_kernel.h"
+#include "statics/byte_field.h"
 #include "statics/free_motions.h"
 #include "statics/petsc.h"
 #include "statics/preconditioner.h"
@@ -30,10 +31,15 @@ class MixedGradients {
   /// no PETSc options, which would ask for a method of PETSc's.
   static bool serves(const model::Model& model, const StaticOptions& options);
 
-  /// Fills the displacements, ghosts too, with the equilibrium under a mean strain, nothing else pushing. It ends at a
-  /// residual (2-norm over the unknowns) of the tolerance times that under u = E x, or of `absolute` [N]. Throws
-  /// RunError when the iteration does not converge.
+  /// Fills the displacements, ghosts too, with the equilibrium under a mean strain, nothing else pushing. It ends when
+  /// the energy of what is missing is estimated as the tolerance times the energy by which u lies below u = E x, or at
+  /// a residual (2-norm over the unknowns) of `absolute` [N]. Throws RunError when the iteration does not converge.
   SolveReport solve(const mechanics::Tensor6& mean_strain, double absolute, lattice::Field<double>& u);
+
+  /// The periodic part u - E x, to two digits.
+  ByteField kept(const mechanics::Tensor6& mean_strain, const lattice::Field<double>& u) const;
+  /// Work [J] of the residual that the last solve has left on the periodic part of another one.
+  double work(const ByteField& kept) const;
 
  private:
   /// level.b = -K u / unit_ on free components; its norm [N]. Ghosts of u set.

@@ -39,6 +39,8 @@ inline homogenize::Effective effective(model::Definition definition, const Commu
   if (boundary != homogenize::Boundary::periodic) definition.body.periodic = {};
   statics::StaticOptions options;
   options.tolerance = definition.analysis.tolerance;
+  // Elsewhere the tolerance is that of energies, which are of second order.
+  if (boundary != homogenize::Boundary::traction) options.tolerance *= options.tolerance;
   return homogenize::effective_stiffness(model::make_model(definition, communicator), options, boundary);
 }
 

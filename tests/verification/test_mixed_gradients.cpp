@@ -27,9 +27,10 @@ model::Definition random_mixture(double soft) {
   return definition;
 }
 
-homogenize::Effective solved(const model::Definition& definition, homogenize::Boundary boundary, bool by_petsc) {
+homogenize::Effective solved(const model::Definition& definition, homogenize::Boundary boundary, double tolerance,
+                             bool by_petsc = false) {
   statics::StaticOptions options;
-  options.tolerance = 1e-11;
+  options.tolerance = tolerance;
   if (by_petsc) options.petsc_options = {"-ksp_type", "cg"};
   model::Definition asked = definition;
   if (boundary != homogenize::Boundary::periodic) asked.body.periodic = {};
@@ -39,18 +40,22 @@ homogenize::Effective solved(const model::Definition& definition, homogenize::Bo
 }
 
 TEST(MixedGradients, EndWhereDoublePrecisionDoes) {
-  // To a residual of 1e-11 in double precision, thousands of roundings of single precision: C is the same to 1e-9, and
-  // rounding costs at most two iterations.
+  // Down to residuals of about 1e-10, thousands of roundings of single precision: C is the same to 1e-9, and rounding
+  // costs at most two iterations on the way to a residual of 1e-8.
+  const auto iterations = [](const statics::SolveReport& report) {
+    const auto& history = report.residual_history;
+    return std::ranges::find_if(history, [](double residual) { return residual < 1e-8; }) - history.begin();
+  };
   int compared = 0;
   for (const double soft : {1e-1, 1e-3})
     for (const homogenize::Boundary boundary : {homogenize::Boundary::periodic, homogenize::Boundary::displacement}) {
       const model::Definition definition = random_mixture(soft);
-      const homogenize::Effective mixed = solved(definition, boundary, false),
-                                  exact = solved(definition, boundary, true);
+      const homogenize::Effective mixed = solved(definition, boundary, 1e-20);
+      const homogenize::Effective exact = solved(definition, boundary, 1e-11, true);
       for (std::size_t i = 0; i < 6; ++i) {
-        EXPECT_GT(exact.cases[i].iterations, 10);
-        EXPECT_NEAR(mixed.cases[i].iterations, exact.cases[i].iterations, 2);
-        EXPECT_LE(mixed.cases[i].relative_residual, 1e-11);
+        EXPECT_GT(iterations(exact.cases[i]), 7);
+        EXPECT_NEAR(iterations(mixed.cases[i]), iterations(exact.cases[i]), 2);
+        EXPECT_LE(mixed.cases[i].relative_residual, 1e-8);
         for (std::size_t j = 0; j < 6; ++j, ++compared)
           EXPECT_NEAR(mixed.stiffness.voigt[i][j] / exact.stiffness.voigt[0][0],
                       exact.stiffness.voigt[i][j] / exact.stiffness.voigt[0][0], 1e-9);
@@ -59,13 +64,34 @@ TEST(MixedGradients, EndWhereDoublePrecisionDoes) {
   EXPECT_EQ(compared, 4 * 36);
 }
 
+TEST(MixedGradients, TheErrorOfTheStiffnessIsTheTolerance) {
+  // The energy of the error is the tolerance times that by which u lies below u = E x: in C, times Voigt's mean less C.
+  // The estimate is good to an order of magnitude; what entries off the diagonal lack is at most the geometric mean.
+  // Mean stresses alone would leave an error of first order, which the asymmetry shows.
+  const model::Definition definition = random_mixture(0.1);
+  const homogenize::Effective exact = solved(definition, homogenize::Boundary::periodic, 1e-12, true);
+  const double voigt = exact.bounds.voigt.bulk + 4.0 / 3 * exact.bounds.voigt.shear;
+  const double released = voigt - exact.stiffness.voigt[0][0];
+  for (const double tolerance : {1e-5, 1e-8}) {
+    const homogenize::Effective found = solved(definition, homogenize::Boundary::periodic, tolerance);
+    double largest = 0;
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j)
+        largest = std::max(largest, std::abs(found.stiffness.voigt[i][j] - exact.stiffness.voigt[i][j]) / released);
+    EXPECT_LT(largest, 10 * tolerance);
+    EXPECT_GT(largest, 0.01 * tolerance);
+    EXPECT_GT(found.asymmetry, 2 * tolerance);
+    EXPECT_LT(found.asymmetry, std::sqrt(tolerance));
+  }
+}
+
 TEST(MixedGradients, TheResidualIsThatOfTheDisplacements) {
-  // What is reported against forces of the kernel in double precision.
+  // What is reported against forces of the kernel in double precision; single precision rounds to 6e-8.
   const model::Model model = model::make_model(random_mixture(0.1), Communicator::world());
   statics::StaticOptions options;
   options.tolerance = 1e-9;
   statics::MixedGradients solver(model, options);
-  lattice::Field<double> u(model.layout(), 6), force(model.layout(), 6);
+  lattice::Field<double> u(model.layout(), 6);
   const auto norm = [&] {
     mechanics::ForceKernel kernel(model.lattice);
     ExactSum square;
@@ -81,9 +107,8 @@ TEST(MixedGradients, TheResidualIsThatOfTheDisplacements) {
   mechanics::add_uniform_strain(model, strain, u);
   const double before = norm();
   const statics::SolveReport report = solver.solve(strain, 0, u);
-  EXPECT_LE(report.relative_residual, 1e-9);
-  // To 1e-15 of forces of 12 cells and the rounding of single precision.
-  EXPECT_NEAR(norm() / before, report.relative_residual, 1e-12);
+  EXPECT_LT(report.relative_residual, 1e-3);
+  EXPECT_NEAR(norm() / before / report.relative_residual, 1, 1e-6);
 }
 
 TEST(MixedGradients, StrongContrastsAndOtherMethodsArePetscs) {
