@@ -2,6 +2,7 @@
 """Stress at curved surfaces, as stairs and as cut cells: writes docs/validation/curved_stress.csv and its table in curved.md.
 
     scripts/curved_stress_study.py [--koshi build/release/koshi] [--out docs/validation] [--cells 5 10 20]
+    scripts/curved_stress_study.py --kinematics least-squares --surfaces cut --bodies bar askew     a table of its own
 
 Bodies with the tractions of an exact solution on their outer faces (as profiles), nothing held but walls of plane strain:
   plate     hole of radius a = 1 along z in a plate pulled along x, plane strain (Kirsch)
@@ -146,11 +147,12 @@ class Bar:
     work = S * S * math.pi / 2 * 3 / (E / (2 * (1 + NU)))
 
 
-def case(body, d, surface):
+def case(body, d, surface, kinematics):
     loaded, low, size = body.faces(d)
     text = f"""
 [lattice]
 spacing = {d!r}
+kinematics = "{kinematics}"
 [material.rock]
 youngs_modulus = {E}
 poissons_ratio = {NU}
@@ -199,11 +201,11 @@ def array(text, name):
     return [float(v) for v in found.split()]
 
 
-def measure(koshi, body, n, surface):
+def measure(koshi, body, n, surface, kinematics):
     d = 1 / n
     with tempfile.TemporaryDirectory() as folder:
         folder = pathlib.Path(folder)
-        (folder / "case.toml").write_text(case(body, d, surface))
+        (folder / "case.toml").write_text(case(body, d, surface, kinematics))
         subprocess.run([koshi, "run", folder / "case.toml", "--out", folder / "out"], check=True, capture_output=True)
         energy = json.loads((folder / "out" / "summary.json").read_text())["energy"]["elastic"]
         text = (folder / "out" / "surface.vtp").read_text()
@@ -241,25 +243,30 @@ def main():
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("docs/validation"))
     parser.add_argument("--bodies", nargs="+", default=[name for name, _ in bodies()])
     parser.add_argument("--cells", type=int, nargs="+", default=[5, 10, 20])
+    parser.add_argument("--surfaces", nargs="+", default=["stairs", "cut"])
+    parser.add_argument("--kinematics", default="rotational")
     options = parser.parse_args()
     table = []
     for name, body in (pair for pair in bodies() if pair[0] in options.bodies):
-        for surface in ("stairs", "cut"):
+        for surface in options.surfaces:
             for n in options.cells:
-                work, errors = measure(options.koshi, body, n, surface)
+                work, errors = measure(options.koshi, body, n, surface, options.kinematics)
                 work = "" if body.work is None else 100 * (work / body.work - 1)
                 table.append([name, surface, n, work] + errors)
                 print(*table[-1], file=sys.stderr, flush=True)
     text = lambda v, digits: "" if v == "" else f"{v:.{digits}g}"
-    with open(options.out / "curved_stress.csv", "w", newline="") as file:
+    # Each kinematics has its file and its table.
+    name = "stress" if options.kinematics == "rotational" else f"stress {options.kinematics}"
+    with open(options.out / f"curved_{name.replace(' ', '_').replace('-', '_')}.csv", "w", newline="") as file:
         writer = csv.writer(file, lineterminator="\n")
         writer.writerow(["body", "surface", "n", "work error [%]", "peak error [%]", "mean error [%]", "worst error [%]"])
         writer.writerows([*row[:3], *(text(v, 4) for v in row[3:])] for row in table)
     lines = ["| body | surface | n | work | peak | mean | worst |", "|---|---|---|---|---|---|---|"]
     lines += [f"| {row[0]} | {row[1]} | {row[2]} | " + " | ".join(text(v, 2) for v in row[3:]) + " |" for row in table]
     page = options.out / "curved.md"
-    before, after = page.read_text().split("<!-- stress table -->\n")[0], page.read_text().split("<!-- stress end -->")[1]
-    page.write_text(before + "<!-- stress table -->\n\n" + "\n".join(lines) + "\n\n<!-- stress end -->" + after)
+    start, end = f"<!-- {name} table -->\n", f"<!-- {name} end -->"
+    before, after = page.read_text().split(start)[0], page.read_text().split(end)[1]
+    page.write_text(before + start + "\n" + "\n".join(lines) + "\n\n" + end + after)
 
 
 if __name__ == "__main__":
