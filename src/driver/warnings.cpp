@@ -122,7 +122,8 @@ void check_held_loads(const model::Model& model, std::vector<std::string>& warni
     }
 }
 
-// Cells so large that their elastic energy at the strength is more than a crack takes break at less (theory, 12).
+// Cells so large that their elastic energy at the strength is more than a crack takes break at less, or take more
+// (theory, 12).
 void check_spacing(const Definition& definition, std::vector<std::string>& warnings) {
   const double d = definition.lattice.spacing;
   const double widest = failure::band_width(d, {1 / std::sqrt(3.0), 1 / std::sqrt(3.0), 1 / std::sqrt(3.0)});
@@ -130,13 +131,25 @@ void check_spacing(const Definition& definition, std::vector<std::string>& warni
     if (!material.cracks() || material.fracture->law == material::FractureLaw::bonds) continue;
     const double E = material.elastic.youngs_modulus, f_t = material.fracture->tensile_strength;
     const double G_f = material.fracture->fracture_energy, limit = failure::width_limit(E, f_t, G_f);
-    if (widest < limit) continue;
-    warnings.push_back(fmt::format(
-        "the spacing of {:.4g} m is too coarse for material \"{}\": at its tensile strength a cell stores more energy "
-        "than a crack takes. It keeps its fracture energy of {:.4g} J/m^2, but cracks across an axis open at {:.3g} "
-        "Pa, oblique ones at as little as {:.3g} Pa, not at {:.4g} Pa; a spacing below {:.3g} m keeps both",
-        d, material.name, G_f, E * failure::threshold(E, f_t, G_f, d), E * failure::threshold(E, f_t, G_f, widest), f_t,
-        limit * d / widest));
+    // Equal tension along two axes stores this times the energy of tension along one.
+    const double biaxial = 2 * (1 - material.elastic.poissons_ratio);
+    if (widest * biaxial < limit) continue;
+    const double fine = limit * d / widest, finer = fine / biaxial;
+    if (widest < limit)
+      warnings.push_back(fmt::format(
+          "the spacing of {:.4g} m is too coarse for material \"{}\" where tension acts along two axes alike: there a "
+          "cell stores {:.3g} times as much energy at its strength as under tension along one, more than a crack "
+          "takes. Cracks there open at {:.4g} Pa, but take up to {:.4g} J/m^2, not {:.4g} J/m^2; a spacing below "
+          "{:.3g} m keeps both",
+          d, material.name, biaxial, f_t, biaxial * G_f * widest / limit, G_f, finer));
+    else
+      warnings.push_back(fmt::format(
+          "the spacing of {:.4g} m is too coarse for material \"{}\": at its tensile strength a cell stores more "
+          "energy than a crack takes. It keeps its fracture energy of {:.4g} J/m^2, but cracks across an axis open at "
+          "{:.3g} Pa, oblique ones at as little as {:.3g} Pa, not at {:.4g} Pa; a spacing below {:.3g} m keeps both, "
+          "one below {:.3g} m also where tension acts along two axes alike",
+          d, material.name, G_f, E * failure::threshold(E, f_t, G_f, d), E * failure::threshold(E, f_t, G_f, widest),
+          f_t, fine, finer));
   }
 }
 

@@ -11,10 +11,9 @@
 namespace koshi::model {
 namespace {
 
-// Strength and toughness of cells that crack.
+// Strength of cells that crack.
 void check_cells(const Checker& check, const std::string& path, const material::Fracture& fracture) {
   check.within(ranges::strength, path + ".tensile_strength", fracture.tensile_strength);
-  check.within(ranges::fracture_energy, path + ".fracture_energy", fracture.fracture_energy);
   check.within(ranges::strength, path + ".cohesion", fracture.cohesion);
   check.within(ranges::friction_angle, path + ".friction_angle", fracture.friction_angle);
   check.within(ranges::friction_angle, path + ".residual_friction_angle", fracture.residual_friction_angle);
@@ -50,8 +49,17 @@ double volumetric_spring(const Definition& definition, const material::Elastic& 
 void check_limits(const Checker& check, const std::string& path, const material::Fracture& fracture) {
   check.within(ranges::bond_limit, path + ".critical_stretch", fracture.critical_stretch);
   check.within(ranges::bond_limit, path + ".critical_shear", fracture.critical_shear);
-  if (!fracture.critical_stretch)
+}
+
+// Numbers that the law needs; without one those that are there.
+void check_numbers(const Checker& check, const std::string& path, const material::Fracture& fracture) {
+  using material::FractureLaw;
+  const bool cracks = fracture.law != FractureLaw::none;
+  if (cracks ? !fracture.critical_stretch : fracture.fracture_energy != 0)
     check.within(ranges::fracture_energy, path + ".fracture_energy", fracture.fracture_energy);
+  if (fracture.law != FractureLaw::cohesive) check_limits(check, path, fracture);
+  if (cracks ? fracture.law == FractureLaw::cohesive : fracture.tensile_strength != 0)
+    check_cells(check, path, fracture);
 }
 
 // Bonds that break: the lattice must be bonds and nothing else.
@@ -87,8 +95,7 @@ void check_bonds(const Checker& check, const std::string& path, const MaterialDe
 }  // namespace
 
 void check_fracture(const Checker& check, const std::string& path, const MaterialDefinition& material) {
-  const bool by_bonds = material.fracture->law == material::FractureLaw::bonds;
-  by_bonds ? check_limits(check, path, *material.fracture) : check_cells(check, path, *material.fracture);
+  check_numbers(check, path, *material.fracture);
   if (!material.cracks()) return;
 
   // Cracks are cells that lose their springs, and the criterion is isotropic.
@@ -104,7 +111,7 @@ void check_fracture(const Checker& check, const std::string& path, const Materia
         path,
         "type = \"modes\" follows no cracks: modes are small vibrations of the body as it is; use analysis.type = "
         "\"static\", \"quasi-static\" or \"dynamic\", or set law = \"none\"");
-  if (by_bonds) check_bonds(check, path, material);
+  if (material.fracture->law == material::FractureLaw::bonds) check_bonds(check, path, material);
 }
 
 }  // namespace koshi::model

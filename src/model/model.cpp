@@ -151,6 +151,7 @@ Model make_model(const Definition& definition, const Communicator& communicator)
   collectively(communicator, [&] { model.lattice.ground = make_supports(model); });
   model.loads = make_loads(model);
   model.probes = make_probes(model);
+  check_pre_cracks(model);
   return model;
 }
 

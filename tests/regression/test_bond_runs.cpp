@@ -143,24 +143,26 @@ TEST_F(BondRuns, WhatBondsCannotCarryIsRefused) {
       {fracture + ".critical_shear=-1", "critical_shear is -1; it must lie between 1e-12 and 1"},
       {fracture + "='{law=\"bonds\"}'", "fracture has no \"fracture_energy\"; expected"},
       {fracture + "='{law=\"bonds\", fracture_energy=20, critical_stretch=1e-3}'",
-       "\"fracture_energy\" has no meaning here; it goes with no critical_stretch"},
+       "\"fracture_energy\" has no meaning here; it goes with no critical_stretch, or law \"none\""},
       {fracture + "='{law=\"bonds\", fracture_energy=20, tensile_strength=3e6}'",
        "\"tensile_strength\" has no meaning here; it goes with law \"cohesive\" or \"none\""},
       {fracture + "='{tensile_strength=3e6, fracture_energy=20, critical_shear=1e-3}'",
-       "\"critical_shear\" has no meaning here; it goes with law \"bonds\""},
+       "\"critical_shear\" has no meaning here; it goes with law \"bonds\" or \"none\""},
   };
   for (const auto& [options, message] : wrong) {
     const Ended ended = koshi("check plate.toml " + options);
     EXPECT_EQ(ended.code, 2) << options << ended.output;
     EXPECT_THAT(ended.error, HasSubstr(message)) << options;
   }
-  // Where cracks lie is known once there are cells.
+  // Where cracks lie is known once there are cells, to a check too.
   for (const auto& [crack, message] :
        {std::pair{"{center=[0.04, 0.03, 0], normal=[1, 0, 0], radius=0.02}", "crack cuts bonds of material \"stone\""},
         {"{name=\"slit\", center=[0.5, 0.03, 0], normal=[1, 0, 0], radius=0.01}", "crack \"slit\" cuts no bond"}}) {
-    const Ended ended = koshi("run plate.toml --set 'crack=[" + std::string(crack) + "]'");
-    EXPECT_EQ(ended.code, 2) << crack;
-    EXPECT_THAT(ended.error, HasSubstr(message)) << crack;
+    for (const std::string command : {"check", "run"}) {
+      const Ended ended = koshi(command + " plate.toml --set 'crack=[" + std::string(crack) + "]'");
+      EXPECT_EQ(ended.code, 2) << command << crack;
+      EXPECT_THAT(ended.error, HasSubstr(message)) << command << crack;
+    }
   }
 }
 

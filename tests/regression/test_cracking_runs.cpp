@@ -8,7 +8,7 @@
 
 #include "io/field_reader.h"
 #include "io/history_reader.h"
-#include "support/program_test.h"
+#include "support/cracking_plate.h"
 
 namespace koshi {
 namespace {
@@ -17,68 +17,7 @@ using test::Ended;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-// A plate that is pulled until a crack runs from its notch, and pressed again: open and closed faces, friction,
-// damping, two materials.
-const std::string plate = R"([lattice]
-spacing = "5 mm"
-[body]
-size = ["60 mm", "45 mm", "10 mm"]
-material = "concrete"
-[material.concrete]
-youngs_modulus = "30 GPa"
-poissons_ratio = 0.2
-density = "2400 kg/m^3"
-fracture = { tensile_strength = "3 MPa", fracture_energy = "20 J/m^2", cohesion = "8 MPa", friction_angle = "40 deg", residual_friction_angle = "30 deg" }
-[material.stone]
-youngs_modulus = "60 GPa"
-poissons_ratio = 0.25
-density = "2700 kg/m^3"
-[[region]]
-shape = "sphere"
-center = ["40 mm", "30 mm", "5 mm"]
-radius = "8 mm"
-material = "stone"
-[[region]]
-shape = "box"
-min = ["30 mm", "0 mm", "0 mm"]
-max = ["35 mm", "15 mm", "10 mm"]
-material = "void"
-[[boundary]]
-name = "wall"
-face = "x-min"
-fix = ["x", "y", "z", "rx", "ry", "rz"]
-[[boundary]]
-name = "pull"
-face = "x-max"
-displacement = { x = "20 um", y = "5 um" }
-history = [["0 s", 0], ["100 us", 1], ["160 us", -0.3]]
-[analysis]
-type = "dynamic"
-duration = "160 us"
-damping = { kind = "local", factor = 0.2 }
-[output]
-fields = ["displacement", "damage"]
-history_every = "8 us"
-checkpoint_every = "80 us"
-)";
-
-class CrackingRuns : public test::ProgramTest {
- protected:
-  CrackingRuns() { test::write_file(directory_ / "plate.toml", plate); }
-  std::string file(const fs::path& name) const { return test::read_file(directory_ / name); }
-  // Values of the last row of a history.
-  std::vector<double> last_row(const fs::path& output) const {
-    std::vector<double> row;
-    for (const io::HistoryColumn& column : io::read_history(directory_ / output / "history.csv"))
-      row.push_back(column.values.back());
-    return row;
-  }
-  std::string refused(const std::string& options) const {
-    const Ended ended = koshi("check plate.toml " + options);
-    EXPECT_EQ(ended.code, 2) << options << ended.output;
-    return ended.error;
-  }
-};
+using CrackingRuns = test::CrackingPlate;
 
 TEST_F(CrackingRuns, SameBitsOnAnyRanks) {
   for (const char* ranks : {"1", "2", "4"})
@@ -98,103 +37,6 @@ TEST_F(CrackingRuns, SameBitsOnAnyRanks) {
   EXPECT_GT(std::ranges::count_if(damage, [](float omega) { return omega > 0.99; }), 5);
   EXPECT_GT(std::ranges::count(damage, 0.0F), 50);
   EXPECT_TRUE(std::ranges::all_of(damage, [](float omega) { return omega >= 0 && omega <= 1; }));
-}
-
-// In equilibrium ranks agree as far as the solver's tolerance lets them: the same cells crack, by the same factors. The
-// plate is pulled evenly, which leaves nothing closed.
-TEST_F(CrackingRuns, EventsAreTheSameOnTwoRanks) {
-  const std::string events =
-      "run plate.toml --quiet --set analysis='{type=\"static\", events=60}' --set "
-      "output='{fields=[\"damage\"], every_events=25}' --set boundary.pull.history='[[\"0 s\", 1]]' --out ";
-  ASSERT_EQ(koshi(events + "one").code, 0);
-  ASSERT_EQ(koshi(events + "two --ranks 2").code, 0);
-  const auto one = io::read_history(directory_ / "one/history.csv"),
-             two = io::read_history(directory_ / "two/history.csv");
-  ASSERT_EQ(one.size(), two.size());
-  EXPECT_EQ(one[0].name, "event");
-  EXPECT_EQ(one[1].name, "load factor");
-  ASSERT_EQ(one[1].values.size(), 61u);
-  ASSERT_EQ(two[1].values.size(), 61u);
-  for (std::size_t row = 0; row < 61; ++row)
-    EXPECT_NEAR(two[1].values[row] / std::max(one[1].values[row], 1e-3), one[1].values[row] == 0 ? 0 : 1, 1e-5) << row;
-  EXPECT_EQ(io::list_samples(directory_ / "one").size(), 3u);
-  const auto analysis = summary("one").at("analysis");
-  EXPECT_EQ(analysis.at("reason"), "number of events");
-  EXPECT_EQ(analysis.at("events"), 60);
-  EXPECT_GT(analysis.at("cracked_cells"), 5);
-  EXPECT_EQ(analysis.at("cracked_cells"), summary("two").at("analysis").at("cracked_cells"));
-  EXPECT_GT(analysis.at("peak").at("event"), 0);
-}
-
-// A flaw right across the plate's upper part is closed by the pressure on the ends; ranks share its cells, and agree.
-// It carries the pressure, by nodes that the border between the ranks, across x, does not touch.
-TEST_F(CrackingRuns, ClosedCracksAreTheSameOnTwoRanks) {
-  const std::string pressed =
-      "run plate.toml --quiet --set analysis='{type=\"static\", events=8}' --set output='{}' --set "
-      "boundary.pull.displacement='{x=\"-20 um\"}' --set boundary.pull.history='[[\"0 s\", 1]]' --set "
-      "'crack=[{center=[\"15 mm\", \"30 mm\", \"5 mm\"], normal=[1, 0.3, 0], radius=\"12 mm\"}]' --set "
-      "'probe=[{name=\"push\", face=\"x-max\", quantity=\"reaction\"}]' ";
-  ASSERT_EQ(koshi(pressed + "--out one").code, 0);
-  ASSERT_EQ(koshi(pressed + "--out two --ranks 2").code, 0);
-  ASSERT_EQ(koshi(pressed + "--set material.concrete.fracture.law=none --set crack=[] --out whole").code, 0);
-  const auto one = io::read_history(directory_ / "one/history.csv"),
-             two = io::read_history(directory_ / "two/history.csv"),
-             whole = io::read_history(directory_ / "whole/history.csv");
-  ASSERT_EQ(one[2].name, "push.reaction.x");
-  ASSERT_EQ(one[2].values.size(), two[2].values.size());
-  ASSERT_GE(one[2].values.size(), 2u);
-  for (std::size_t row = 1; row < one[2].values.size(); ++row) {
-    EXPECT_NEAR(two[1].values[row] / one[1].values[row], 1, 1e-5) << row;
-    EXPECT_NEAR(two[2].values[row] / one[2].values[row], 1, 1e-5) << row;
-  }
-  // Over the stiffness of the plate without a flaw; pulled open the same flaw leaves 0.66 of it.
-  EXPECT_NEAR(one[2].values[1] / one[1].values[1] / whole[1].values.back(), 0.864, 0.005);
-}
-
-// An equilibrium ends at the event at which its reaction has fallen or a crack has come to a face, and its catalogue
-// holds every cell that cracked through, by number of event and load factor; the same on two ranks.
-TEST_F(CrackingRuns, EquilibriaEndWhenToldToAndTellWhatBroke) {
-  const std::string events =
-      "run plate.toml --set boundary.pull.history='[[\"0 s\", 1]]' --set output='{fields=[\"damage\"], "
-      "crack_surface=true}' --set 'probe=[{name=\"pull\", face=\"x-max\", quantity=\"reaction\"}]' ";
-  const std::string fallen = "--set analysis='{type=\"static\", stop_when={probe=\"pull\", below=0.4}}' ";
-  const Ended one = koshi(events + fallen + "--out one");
-  ASSERT_EQ(one.code, 0) << one.error;
-  EXPECT_THAT(one.output, HasSubstr("of its largest, "));
-  ASSERT_EQ(koshi(events + fallen + "--quiet --out two --ranks 2").code, 0);
-
-  const auto history = io::read_history(directory_ / "one/history.csv");
-  double peak = 0;
-  int fell = 0;
-  for (std::size_t row = 0; row < history[0].values.size(); ++row) {
-    const double force = std::hypot(history[2].values[row], history[3].values[row], history[4].values[row]);
-    peak = std::max(peak, force);
-    fell += force < 0.4 * peak;
-  }
-  EXPECT_EQ(fell, 1) << "only the last row";
-  EXPECT_THAT(summary("one").at("analysis").at("stop_reason").get<std::string>(),
-              HasSubstr("the reaction \"pull\" of"));
-
-  const nlohmann::json cracks = summary("one").at("cracks");
-  EXPECT_GT(cracks.at("cells").get<int>(), 5);
-  EXPECT_EQ(cracks.at("cells"), summary("two").at("cracks").at("cells"));
-  const auto catalogue = io::read_history(directory_ / "one/events.csv");
-  ASSERT_EQ(catalogue.size(), 10u);
-  EXPECT_EQ(catalogue[2].name, "load factor");
-  EXPECT_EQ(catalogue[7].name, "cells");
-  double cells = 0;
-  for (std::size_t e = 0; e < catalogue[0].values.size(); ++e) {
-    cells += catalogue[7].values[e];
-    EXPECT_EQ(catalogue[2].values[e], history[1].values[static_cast<std::size_t>(catalogue[0].values[e])]);
-    EXPECT_LE(catalogue[0].values[e], catalogue[1].values[e]);
-  }
-  EXPECT_EQ(cells, cracks.at("cells").get<double>());
-  EXPECT_THAT(file("one/cracks.vtp"),
-              HasSubstr("NumberOfPolys=\"" + std::to_string(cracks.at("cells").get<int>()) + "\""));
-
-  const Ended face = koshi(events + "--set analysis='{type=\"static\", stop_when={face=\"y-max\"}}' --out face");
-  ASSERT_EQ(face.code, 0) << face.error;
-  EXPECT_THAT(face.output, HasSubstr("a crack has reached the face y-max"));
 }
 
 // Random strengths and stiffnesses, with a correlation length or without, belong to cells and not to ranks; what came
@@ -378,6 +220,7 @@ TEST_F(CrackingRuns, WrongFractureIsRefusedInWords) {
       {"--set output.every_events=5", "every_events counts the events of a static body that cracks"},
       {"--set analysis='{type=\"static\", events=0}' --set output='{}'", "events is 0; it must lie between 1 and"},
       {"--set analysis='{type=\"modes\"}' --set output='{}'", "type = \"modes\" follows no cracks"},
+      {"--set 'crack=[{center=[1, 0, 0], normal=[1, 0, 0], radius=0.01}]'", "crack cuts no cell of the body"},
       {fracture + "law=none", "damage belongs to materials that crack, and there is none"},
   };
   for (const auto& [options, message] : wrong) EXPECT_THAT(refused(options), HasSubstr(message)) << options;

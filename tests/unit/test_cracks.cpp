@@ -120,7 +120,8 @@ TEST(PreCracks, WhatIsWrongIsSaidAtTheKey) {
        "a static analysis without steps has no time that could pass before; leave after out"},
   };
   for (const auto& [override_text, message] : wrong)
-    EXPECT_THAT([&] { cracked(read({override_text})); }, ThrowsMessage<InputError>(HasSubstr(message)))
+    EXPECT_THAT([&] { model::make_model(read({override_text}), Communicator::world()); },
+                ThrowsMessage<InputError>(HasSubstr(message)))
         << override_text;
   EXPECT_THAT(
       [&] {

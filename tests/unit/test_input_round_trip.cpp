@@ -171,6 +171,39 @@ TEST(ResolvedInput, EveryKeySurvives) {
     expect_survival(right_cases()[7], change);
 }
 
+// One word switches either law off and on again; what the case says beside it stays.
+TEST(ResolvedInput, NumbersOfFractureStayWithoutALaw) {
+  for (const auto& [file, law] : {std::pair<std::size_t, const char*>{6, "cohesive"}, {8, "bonds"}}) {
+    const std::filesystem::path path = right_cases()[file];
+    const std::string table = "material.rock.fracture";
+    const model::Definition cracks = read_case(path);
+    std::vector<std::string> off{table + ".law=none", "crack=[]", "output.fields=[]", "output.crack_surface=false"};
+    if (cracks.analysis.stop_when) off.emplace_back("analysis={type='dynamic', duration=1}");
+    const model::Definition whole = read_case(path, off);
+    EXPECT_FALSE(whole.cracks());
+    const model::Definition again = read_case_text(resolved_toml(whole), "resolved.toml");
+    EXPECT_TRUE(again == whole) << resolved_toml(whole);
+    // The same numbers under the law's own word.
+    const auto of_rock = [](const model::Definition& definition) {
+      for (const model::MaterialDefinition& material : definition.materials)
+        if (material.name == "rock") return material.fracture.value();
+      return material::Fracture{};
+    };
+    material::Fracture on = of_rock(again);
+    EXPECT_FALSE(on == of_rock(cracks));
+    on.law = of_rock(cracks).law;
+    EXPECT_TRUE(on == of_rock(cracks)) << law;
+  }
+  // Neither law's numbers are needed, and those of both may stand side by side.
+  for (const char* numbers : {"", ", critical_shear=1e-3", ", fracture_energy=1, critical_stretch=1e-3",
+                              ", tensile_strength=1, critical_stretch=1e-3, softening='linear'"}) {
+    const std::vector<std::string> off{std::string("material.rock.fracture={law='none'") + numbers + "}", "crack=[]",
+                                       "output.fields=[]", "analysis={type='dynamic', duration=1}"};
+    const model::Definition whole = read_case(right_cases()[8], off);
+    EXPECT_TRUE(read_case_text(resolved_toml(whole), "resolved.toml") == whole) << numbers;
+  }
+}
+
 TEST(ResolvedInput, WritesDefaultsInSI) {
   const std::string resolved = resolved_toml(read_case(right_cases()[2]));
   for (const char* line :

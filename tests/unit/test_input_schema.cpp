@@ -129,7 +129,8 @@ TEST(Schema, TellsTypeDefaultAndMeaning) {
       schema.at("properties").at("material").at("additionalProperties").at("properties").at("fracture");
   EXPECT_EQ(fracture.at("properties").at("tensile_strength").at("requiredWhereItApplies"), true);
   EXPECT_EQ(fracture.at("properties").at("critical_stretch").at("description"),
-            "Stretch at which a bond breaks, of its length; unset: from fracture_energy. Only for law \"bonds\".");
+            "Stretch at which a bond breaks, of its length; unset: from fracture_energy. Only for law \"bonds\" "
+            "or \"none\".");
   EXPECT_EQ(fracture.at("properties").at("fracture_energy").at("unit"), "J/m^2");
   // Every key is described by one sentence.
   int described = 0;

@@ -100,5 +100,30 @@ TEST(Warnings, UnstableSpringsAreRefused) {
   EXPECT_EQ(fine, 4);
 }
 
+// 2 30 GPa 20 J/m^2/(30 MPa)^2 = 1.333 mm hold sqrt(3) d up to d = 0.770 mm; tension along two axes alike stores 2 (1 -
+// 0.2) = 1.6 times as much, and asks for 0.481 mm. At 0.6 mm a crack takes there 1.6 20 J/m^2 1.0392/1.3333 = 24.9
+// J/m^2.
+TEST(Warnings, SpacingsTooCoarseForTheStrength) {
+  const auto warnings_at = [](double d) {
+    model::Definition definition = test::block({2, 2, 2}, d, {30e9, 0.2, 2400});
+    material::Fracture& fracture = definition.materials[0].fracture.emplace();
+    fracture.tensile_strength = 30e6;
+    fracture.fracture_energy = 20;
+    definition.boundaries = {test::fixed("bottom", Face::z_min, {0, 1, 2})};
+    return warnings_of(definition);
+  };
+  EXPECT_THAT(warnings_at(0.48e-3), IsEmpty());
+  for (const double d : {0.482e-3, 0.6e-3, 0.769e-3})
+    EXPECT_THAT(warnings_at(d),
+                ElementsAre(HasSubstr("where tension acts along two axes alike: there a cell stores 1.6 "
+                                      "times as much energy")));
+  EXPECT_THAT(
+      warnings_at(0.6e-3),
+      ElementsAre(HasSubstr("Cracks there open at 3e+07 Pa, but take up to 24.94 J/m^2, not 20 J/m^2; a spacing "
+                            "below 0.000481 m keeps both")));
+  EXPECT_THAT(warnings_at(0.771e-3),
+              ElementsAre(HasSubstr("a spacing below 0.00077 m keeps both, one below 0.000481 m also where tension")));
+}
+
 }  // namespace
 }  // namespace koshi::driver

@@ -17,10 +17,9 @@ const Table& known_table(const Value& value, const std::string& title, const std
   return *table;
 }
 
-void check_missing(const Value& value, const std::string& title, const KeyInfo& key) {
-  if (key.required)
-    throw InputError(value.place,
-                     fmt::format("{} has no \"{}\"; expected {}", title, key.spec.name, key.expected(key.spec)));
+void refuse_missing(const Value& value, const std::string& title, const KeyInfo& key) {
+  throw InputError(value.place,
+                   fmt::format("{} has no \"{}\"; expected {}", title, key.spec.name, key.expected(key.spec)));
 }
 
 void check_meaningless(const Table& table, const KeyInfo& key) {

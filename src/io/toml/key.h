@@ -34,8 +34,10 @@ struct Key : KeyInfo {
   std::function<void(const Value&, const Spec&, S&)> read;
   std::function<std::string(const S&, const Spec&)> write;  ///< TOML text; empty for an unset value
   std::function<bool(const S&)> applies;                    ///< none: always
+  std::function<bool(const S&)> needed;                     ///< of a required key where it applies; none: always
 
   bool applies_to(const S& s) const { return !applies || applies(s); }
+  bool needed_by(const S& s) const { return required && (!needed || needed(s)); }
 
   /// A word that stands for a value of its own.
   Key or_word(const std::string& word, void (*set)(S&), bool (*is_set)(const S&)) && {
@@ -57,6 +59,16 @@ struct Key : KeyInfo {
     condition = text;
     deciding = keys;
     applies = std::move(predicate);
+    return std::move(*this);
+  }
+
+  /// Lets a required key be left out in other states of the struct; its member then is that of a default one.
+  Key needed_if(std::function<bool(const S&)> predicate) && {
+    needed = std::move(predicate);
+    write = [needed = needed, other = std::move(write)](const S& s, const Spec& about) {
+      const std::string text = other(s, about);
+      return !needed(s) && text == other(S{}, about) ? std::string() : text;
+    };
     return std::move(*this);
   }
 };
@@ -142,7 +154,7 @@ std::vector<std::string> names_of(const std::vector<Key<S>>& keys) {
 const Table& known_table(const Value& value, const std::string& title, const std::vector<std::string>& names);
 
 /// Throws for a required key that is not there.
-void check_missing(const Value& value, const std::string& title, const KeyInfo& key);
+[[noreturn]] void refuse_missing(const Value& value, const std::string& title, const KeyInfo& key);
 
 /// Throws for a key whose condition is not met, unless an override took its meaning away.
 void check_meaningless(const Table& table, const KeyInfo& key);
@@ -161,8 +173,8 @@ void read_table(const Value& value, const std::string& title, S& out) {
         check_meaningless(table, key);
       else if (entry != nullptr)
         key.read(entry->value, key.spec, out);
-      else
-        check_missing(value, title, key);
+      else if (key.needed_by(out))
+        refuse_missing(value, title, key);
     }
   }
 }

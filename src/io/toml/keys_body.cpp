@@ -135,21 +135,27 @@ const std::vector<Key<MaterialDefinition>>& keys_of(Tag<MaterialDefinition>) {
 
 const std::vector<Key<material::Fracture>>& keys_of(Tag<material::Fracture>) {
   using D = material::Fracture;
-  // Without a law that cracks the numbers of cells stay.
-  const auto of_bonds = [](const D& fracture) { return fracture.law == material::FractureLaw::bonds; };
-  const auto bonds = [of_bonds](Key<D> key) { return std::move(key).only_for("law \"bonds\"", {"law"}, of_bonds); };
-  const auto cells = [of_bonds](Key<D> key) {
+  using material::FractureLaw;
+  // Without a law that cracks the numbers of either stay, so that one word switches it off and on.
+  const auto cracks = [](const D& fracture) { return fracture.law != FractureLaw::none; };
+  const auto bonds = [](Key<D> key) {
+    return std::move(key).only_for("law \"bonds\" or \"none\"", {"law"},
+                                   [](const D& fracture) { return fracture.law != FractureLaw::cohesive; });
+  };
+  const auto cells = [](Key<D> key) {
     return std::move(key).only_for("law \"cohesive\" or \"none\"", {"law"},
-                                   [of_bonds](const D& fracture) { return !of_bonds(fracture); });
+                                   [](const D& fracture) { return fracture.law != FractureLaw::bonds; });
   };
   const About limit{.range = ranges::bond_limit, .example = "2e-4"};
   static const std::vector<Key<D>> keys{
       key<D>("law", &D::law,
              "Cells that crack by strength and energy, bonds that break by their stretch, or \"none\": the material "
              "stays whole."),
-      cells(key<D>(
-          "tensile_strength", &D::tensile_strength, "Tension at which a crack starts.",
-          {.dimension = Dimension::pressure, .required = true, .range = ranges::strength, .example = R"("3 MPa")"})),
+      cells(
+          key<D>(
+              "tensile_strength", &D::tensile_strength, "Tension at which a crack starts.",
+              {.dimension = Dimension::pressure, .required = true, .range = ranges::strength, .example = R"("3 MPa")"}))
+          .needed_if(cracks),
       bonds(key<D>("critical_stretch", &D::critical_stretch,
                    "Stretch at which a bond breaks, of its length; unset: from fracture_energy.", limit)),
       bonds(key<D>("critical_shear", &D::critical_shear,
@@ -159,8 +165,9 @@ const std::vector<Key<material::Fracture>>& keys_of(Tag<material::Fracture>) {
               .required = true,
               .range = ranges::fracture_energy,
               .example = R"("100 J/m^2")"})
-          .only_for("no critical_stretch", {"law", "critical_stretch"},
-                    [](const D& fracture) { return !fracture.critical_stretch; }),
+          .only_for("no critical_stretch, or law \"none\"", {"law", "critical_stretch"},
+                    [cracks](const D& fracture) { return !cracks(fracture) || !fracture.critical_stretch; })
+          .needed_if(cracks),
       cells(
           key<D>("softening", &D::softening, "How the stress falls as the crack opens: exponentially, or on a line.")),
       cells(key<D>("cohesion", &D::cohesion,
