@@ -91,9 +91,14 @@ failure::Fracturing* Simulation::fracturing() {
   return fracturing_.get();
 }
 
+mechanics::Meter& Simulation::meter() {
+  if (fracturing_) fracturing_->lay_forces();
+  return *meter_;
+}
+
 // Balance and probes, with the energies of cracks.
 mechanics::Measurement Simulation::measure_at(double dt) {
-  mechanics::Measurement measurement = meter_->measure(state(), dt);
+  mechanics::Measurement measurement = meter().measure(state(), dt);
   if (fracturing() != nullptr) fracturing()->complete(measurement.balance);
   return measurement;
 }

@@ -95,7 +95,8 @@ class Simulation {
   const model::Model& model() const { return *model_; }
   /// The state, at rest until something changes it; takes its memory when first asked for.
   model::State& state();
-  mechanics::Meter& meter() { return *meter_; }
+  /// Of the state as it is now.
+  mechanics::Meter& meter();
   /// What the ranks held before the model was made.
   const ResidentMemory& memory_before() const { return memory_before_; }
 

@@ -63,7 +63,7 @@ struct ExplicitSolver::Implementation {
         mean_strain(m, s),
         origin(s.time - static_cast<double>(s.step) * step),
         cracking(cracks) {
-    if (cracking != nullptr) ledger.emplace(model, state, motion_rows, dt);
+    if (cracking != nullptr) ledger.emplace(model, state, motion_rows, kick, dt);
     if (state.step == 0 && state.time == 0) take_initial_displacements();
   }
 
@@ -115,6 +115,7 @@ struct ExplicitSolver::Implementation {
           damp_and_kick(j, k, force);  // 4. and 5.
           impose_motion(j, k);         // 6.
           if (ledger) ledger->close(j, k, force);
+          if (cracking != nullptr) cracking->note_row(j, k);
         },
         [&](std::int64_t j, std::int64_t k) {
           if (!touches_border(j, k)) drift(j, k);  // 7.
@@ -125,15 +126,20 @@ struct ExplicitSolver::Implementation {
   void fetch(std::int64_t n) {
     for (int c = 0; c < model.components(); ++c) __builtin_prefetch(state.velocity.component(c) + n, 1, 2);
     for (int c = 0; c < inverse_inertia.components(); ++c) __builtin_prefetch(inverse_inertia.component(c) + n, 0, 2);
+    if (ledger) ledger->fetch(n);
   }
 
   // 4. Damp (N27) and 5. kick: velocities by the acceleration (N5).
   void damp_and_kick(std::int64_t j, std::int64_t k, double* const* force) {
     const lattice::Layout& layout = model.layout();
     const std::int64_t n = layout.index(0, j, k);
-    for (int c = 0; c < model.components(); ++c)
-      update.kick(kick, layout.owned()[0], force[c], inverse_inertia.component(c < 3 ? 0 : 1) + n,
-                  state.velocity.component(c) + n);
+    for (int c = 0; c < model.components(); ++c) {
+      const double* const inverse = inverse_inertia.component(c < 3 ? 0 : 1) + n;
+      if (ledger)
+        ledger->kick(c, n, force[c], inverse);
+      else
+        update.kick(kick, layout.owned()[0], force[c], inverse, state.velocity.component(c) + n);
+    }
   }
 
   // 6. Impose prescribed motion: the velocity that leads to the displacement at the end of the step, or the velocity at

@@ -117,6 +117,7 @@ bool CrackEvents::soften() {
   faces_.note();
   for (const Candidate& candidate : candidates_) soften(candidate.cell);
   cracking_.take_begun();
+  std::sort(cracking_.cracked_.begin(), cracking_.cracked_.end());
   faces_.restore();
   return model_.communicator.any(!losses_.empty());
 }

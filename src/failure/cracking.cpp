@@ -7,7 +7,12 @@
 
 namespace koshi::failure {
 Cracking::Cracking(model::Model& model, model::State& state)
-    : Fracturing(model, state), rows_(strain_rows()), limit_(model.layout(), 1), tracks_(model, state) {
+    : Fracturing(model, state),
+      rows_(strain_rows()),
+      limit_(model.layout(), 1),
+      tracks_(model, state),
+      reach_(model.lattice, state.velocity),
+      carried_(model.layout()) {
   const lattice::Layout& layout = model.layout();
   if (model.lattice.factor.components() == 0) model::make_factors(model.lattice, [](const Int3&) { return 1.0F; });
   whole_ = model.lattice.factor;
@@ -28,17 +33,17 @@ Cracking::Cracking(model::Model& model, model::State& state)
   mean_.resize(cells);
   radius_.resize(cells);
   breakable_.resize(cell_row(layout, layout.owned()[1], layout.owned()[2]), 0);
-  reach_.resize(breakable_.size());
-  moved_.resize(static_cast<std::size_t>((layout.owned()[1] + 2) * (layout.owned()[2] + 2)));
   std::size_t breakable = 0;
   lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto j, auto k, auto n) {
     if (!laws_[model_.lattice.cell.component(0)[n]]) return;
     breakable_[cell_row(layout, j, k)] = 1;
     ++breakable;
   });
+  reach_.keep(breakable_);
   cracked_.reserve(breakable);
-  pressed_.reserve(breakable);
   begun_.reserve(breakable);
+  faces_.reserve(breakable);
+  carried_.reserve(breakable);
   restore();
 }
 
@@ -46,8 +51,6 @@ void Cracking::restore() {
   const lattice::Layout& layout = model_.layout();
   model_.lattice.halo->exchange(state_.crack);
   model_.lattice.halo->exchange(state_.displacement);
-  state_.face_force.zero();
-  pressed_.clear();
   look_again();
   cracked_.clear();
   lattice::for_each(layout, {-1, -1, -1}, layout.owned(), [&](auto, auto, auto, auto n) {
@@ -58,10 +61,9 @@ void Cracking::restore() {
     set_factor(n, crack);
     if (crack.kappa == 0) return;
     cracked_.push_back(n);
-    forces_.reach(n);
   });
   tracks_.restore();
-  close_faces(false);
+  restore_faces();
 }
 
 // Of cells that have become whole again, too.
@@ -107,13 +109,11 @@ float Cracking::factor(std::int64_t n, double of_damage) const {
 
 void Cracking::set_factor(std::int64_t n, const Crack& crack) {
   model_.lattice.factor.component(0)[n] = factor(n, crack.damage);
-  const double below = crack.damage >= 1 ? std::numeric_limits<double>::infinity()
-                       : crack.kappa > 0 ? margin * crack.kappa
-                                         : margin * law(n).safe(model_.strength_of(n));
+  // Rows pass by cells that have cracked: each of them is looked at by itself.
+  const double below =
+      crack.kappa > 0 ? std::numeric_limits<double>::infinity() : margin * law(n).safe(model_.strength_of(n));
   limit_.component(0)[n] = static_cast<float>(below);
 }
-
-void Cracking::look_again() { std::fill(reach_.begin(), reach_.end(), 0); }
 
 void Cracking::weaken(std::int64_t n, double of_damage) {
   model_.lattice.factor.component(0)[n] =
@@ -132,33 +132,15 @@ std::int64_t Cracking::count(double at_least) const {
 
 void Cracking::follow(double dt) {
   const Int3& owned = model_.layout().owned();
+  reach_.spend(dt);
   begun_.clear();
-  clear_faces();
-  spend_reach(dt);
-  for (std::int64_t k = -1; k < owned[2]; ++k)
-    for (std::int64_t j = -1; j < owned[1]; ++j) {
-      const std::size_t row = cell_row(model_.layout(), j, k);
-      if (breakable_[row] != 0 && !(reach_[row] > 0)) follow_row(j, k, dt);
-    }
-  take_begun();
-  close_faces(true);
-}
-
-// A cell cannot reach its limit before its nodes have moved so far that they could strain it by what it lacks: nodes
-// that move by U at most change its strain by no more than 2 U / d (theory, 12).
-void Cracking::spend_reach(double dt) {
-  const lattice::Layout& layout = model_.layout();
-  const Int3& owned = layout.owned();
-  const auto moved = [&](std::int64_t j, std::int64_t k) -> double& {
-    return moved_[static_cast<std::size_t>((j + 1) + (owned[1] + 2) * (k + 1))];
-  };
-  for (std::int64_t k = -1; k <= owned[2]; ++k)
-    for (std::int64_t j = -1; j <= owned[1]; ++j)
-      moved(j, k) = dt * std::sqrt(rows_.largest_square(state_.velocity.component(0) + layout.index(-1, j, k),
-                                                        state_.velocity.stride(), owned[0] + 2));
   for (std::int64_t k = -1; k < owned[2]; ++k)
     for (std::int64_t j = -1; j < owned[1]; ++j)
-      reach_[cell_row(layout, j, k)] -= std::max({moved(j, k), moved(j + 1, k), moved(j, k + 1), moved(j + 1, k + 1)});
+      if (reach_.is_spent(cell_row(model_.layout(), j, k))) follow_row(j, k, dt);
+  const std::size_t before = cracked_.size();
+  take_begun();
+  if (cracked_.size() != before) insert_faces(before);
+  follow_faces(dt);
 }
 
 void Cracking::look_at_row(std::int64_t j, std::int64_t k) {
@@ -181,7 +163,7 @@ void Cracking::follow_row(std::int64_t j, std::int64_t k, double dt) {
     reach = std::min(reach, lacking * per_strain_[material[i]]);
     if (lacking < 0) crack_further(first + i, dt);
   }
-  reach_[cell_row(model_.layout(), j, k)] = reach;
+  reach_.set(cell_row(model_.layout(), j, k), reach);
 }
 
 // The energy [J/m^3] that the cell's springs, intact, would hold in the step that has just been made: u.K.u'/2 with the
@@ -217,6 +199,8 @@ void Cracking::crack_further(std::int64_t n, double dt) {
     const auto found = begin(n, strain);
     if (!found) return;
     crack = *found;
+  } else if (law(n).equivalent(strain) < crack.kappa) {
+    return;  // it has been strained more
   }
 
   // Springs that are lost take their energy with them, but for what closed faces take over.
@@ -227,18 +211,12 @@ void Cracking::crack_further(std::int64_t n, double dt) {
   if (before < model::parted && crack.damage >= model::parted) state_.crack.component(moment)[n] = state_.time;
   store(n, crack);
   set_factor(n, crack);
-  if (!fresh) return;
-  begun_.push_back(n);
-  forces_.reach(n);
+  if (fresh) begun_.push_back(n);
 }
 
-// What begins in a step does not lead others in the same step, so that the order of cells does not matter. Forces of
-// faces are added up in the order of cells in memory, whoever cracked first.
+// What begins in a step does not lead others in the same step, so that the order of cells does not matter.
 void Cracking::take_begun() {
-  if (!begun_.empty()) {
-    cracked_.insert(cracked_.end(), begun_.begin(), begun_.end());
-    std::sort(cracked_.begin(), cracked_.end());
-  }
+  cracked_.insert(cracked_.end(), begun_.begin(), begun_.end());
   tracks_.follow(begun_);
 }
 

@@ -7,17 +7,14 @@
 
 #include "failure/cell_law.h"
 #include "failure/crack_tracks.h"
+#include "failure/face_forces.h"
 #include "failure/fracturing.h"
+#include "failure/row_reach.h"
 #include "failure/strain_rows.h"
 #include "koshi/model.h"
 #include "mechanics/cell_stress.h"
 
 namespace koshi::failure {
-
-/// Rows of cells that touch an owned node, (-1, -1) first.
-inline std::size_t cell_row(const lattice::Layout& layout, std::int64_t j, std::int64_t k) {
-  return static_cast<std::size_t>((j + 1) + (layout.owned()[1] + 1) * (k + 1));
-}
 
 /// Keeps State::crack, State::face_force and the factors of the model's cells together. Every rank follows all cells
 /// that touch its nodes, so that the bits do not depend on the ranks and no cracks are exchanged.
@@ -32,7 +29,10 @@ class Cracking : public Fracturing {
 
   void restore() override;
   void follow(double dt) override;
-  void look_again() override;
+  void note_row(std::int64_t j, std::int64_t k) override { reach_.note(j, k); }
+  void look_again() override { reach_.forget(); }
+  void add_forces(std::int64_t j, std::int64_t k, double* const* force) const override { carried_.add(j, k, force); }
+  void lay_forces() override;
 
   /// Cells that have cracked with at least this damage (collective).
   std::int64_t count(double at_least) const;
@@ -49,9 +49,9 @@ class Cracking : public Fracturing {
   /// Fills mean_ and radius_ for the row of cells (j, k), from i = -1 on.
   void look_at_row(std::int64_t j, std::int64_t k);
   void follow_row(std::int64_t j, std::int64_t k, double dt);
-  void spend_reach(double dt);
   std::optional<Crack> begin(std::int64_t n, const Tensor6& strain) const;
   void crack_further(std::int64_t n, double dt);
+  /// They stand behind the other cracked cells then, until these are sorted.
   void take_begun();
   void restore_tracks();
   float factor(std::int64_t n, double damage) const;
@@ -64,13 +64,26 @@ class Cracking : public Fracturing {
   /// In equilibrium: broken cells keep a trace of their springs, and rows of cells pass by those that have cracked.
   void weaken(std::int64_t n, double of_damage);
   double intact_energy(std::int64_t n, double dt) const;
-  void clear_faces();
-  void close_faces(bool sliding);
 
-  void slide(std::int64_t n, const Tensor6& strain, Crack& crack);
+  // Cells that have cracked, in motion (cracking_faces.cpp).
+  /// What each step asks of a cracked cell, side by side: a cell's values in the fields lie far apart.
+  struct Face {
+    std::int64_t cell;
+    std::uint16_t material;
+    bool fresh;      ///< cracked in this step
+    double share;    ///< share() of the cell
+    double further;  ///< equivalent strain below which it does not crack further
+    Vec3 normal, slip;
+  };
+  Face face_of(std::int64_t n) const;
+  void insert_faces(std::size_t known);
+  void follow_faces(double dt);
+  void restore_faces();
+  void slide(Face& face, const Tensor6& strain);
+  void carry(const Face& face, const Tensor6& strain);
+  void fetch_face(std::size_t at) const;
 
   Crack load(std::int64_t n) const;
-  Crack load_faces(std::int64_t n) const;
   void store(std::int64_t n, const Crack& crack);
   const CellLaw& law(std::int64_t n) const { return *laws_[model_.lattice.cell.component(0)[n]]; }
 
@@ -80,14 +93,15 @@ class Cracking : public Fracturing {
   const StrainRows& rows_;
   std::vector<double> mean_, radius_;  ///< of a row
   lattice::Field<float> whole_;        ///< factors of the cells without cracks
-  lattice::Field<float> limit_;        ///< equivalent strain below which a cell does not crack further
+  lattice::Field<float> limit_;  ///< equivalent strain below which a cell does not crack; infinite: rows pass by it
   CrackTracks tracks_;
   std::vector<char> breakable_;  ///< rows of cells with a material that can crack
-  std::vector<double> reach_;    ///< of rows of cells: how far nodes may move before a cell can be at its limit [m]
-  std::vector<double> moved_;    ///< of rows of nodes, (-1, -1) first: the longest way of a node in a step [m]
+  RowReach reach_;
   std::vector<std::int64_t> cracked_;  ///< cracked cells, ascending
   std::vector<std::int64_t> begun_;    ///< cells whose cracks began in this step or event
-  std::vector<std::int64_t> pressed_;  ///< of these, those whose faces carry something
+  std::vector<Face> faces_;            ///< those of cracked_, in the same order
+  FaceForces carried_;                 ///< by closed ones
+  bool laid_ = false;                  ///< State::face_force is what they carry
 };
 
 }  // namespace koshi::failure

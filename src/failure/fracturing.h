@@ -37,12 +37,19 @@ class Fracturing {
   /// [s] that led there, by the state's velocities. Takes no memory (collective).
   virtual void follow(double dt) = 0;
 
+  /// May be called for a row of owned nodes in a step, once its velocities are those of the step and while they are in
+  /// the cache: follow() then need not read them again.
+  virtual void note_row(std::int64_t /*j*/, std::int64_t /*k*/) {}
+
   /// To be called when displacements were changed in another way than by the steps that follow() is told of; a law that
   /// looks at all of the body in each step has nothing to do.
   virtual void look_again() {}
 
   /// Adds what cracks change in the forces on row (j, k), force[c] pointing to node i = 0.
-  void add_forces(std::int64_t j, std::int64_t k, double* const* force) const { forces_.add(j, k, force); }
+  virtual void add_forces(std::int64_t j, std::int64_t k, double* const* force) const { forces_.add(j, k, force); }
+
+  /// To be called before State::face_force is read: a law may leave it behind from step to step.
+  virtual void lay_forces() {}
 
   /// Energy [J] that cracks and the friction of their faces have taken so far (collective).
   double energy_taken() const;

@@ -1,11 +1,15 @@
 // Compiled once per instruction set with KOSHI_ISA set to its name.
 #include "failure/strain_rows.h"
 
-#include <algorithm>
 #include <cmath>
+
+#include "mechanics/vector.h"
 
 namespace koshi::failure::KOSHI_ISA {
 namespace {
+
+using Values = mechanics::KOSHI_ISA::Vector<double>::type;
+constexpr std::int64_t lanes = mechanics::KOSHI_ISA::width<double>;
 
 void rows(const StrainRow& row, double scale, std::int64_t cells, double* __restrict mean, double* __restrict radius) {
   const std::ptrdiff_t y = row.component, z = 2 * row.component;
@@ -32,24 +36,38 @@ void rows(const StrainRow& row, double scale, std::int64_t cells, double* __rest
   }
 }
 
-double largest_square(const double* x, std::ptrdiff_t component, std::int64_t count) {
-  // Lanes of their own, since a maximum in order cannot be taken by vectors.
-  constexpr std::int64_t lanes = 16;
-  double largest[lanes]{};
-  const double *const y = x + component, *const z = y + component;
-  const auto square = [=](std::int64_t i) { return x[i] * x[i] + y[i] * y[i] + z[i] * z[i]; };
+// Of the elements of a vector and one number more, in pairs.
+template <class Choose>
+double chosen(const Values& values, double other, Choose&& choose) {
+  double left[lanes];
+  mechanics::KOSHI_ISA::store(left, values);
+  for (std::int64_t half = lanes / 2; half > 0; half /= 2)
+    for (std::int64_t l = 0; l < half; ++l) left[l] = choose(left[l], left[l + half]);
+  return choose(left[0], other);
+}
+
+void range(const double* x, std::int64_t count, double* low, double* high) {
+  const auto lesser = [](const auto& a, const auto& b) { return a < b ? a : b; };
+  const auto greater = [](const auto& a, const auto& b) { return a > b ? a : b; };
+  Values least[2]{Values{} + x[0], Values{} + x[0]}, most[2]{least[0], least[0]};
   std::int64_t i = 0;
-  for (; i + lanes <= count; i += lanes)
-    for (std::int64_t l = 0; l < lanes; ++l) {
-      const double s = square(i + l);
-      largest[l] = s > largest[l] ? s : largest[l];
+  for (; i + 2 * lanes <= count; i += 2 * lanes)
+    for (std::int64_t v = 0; v < 2; ++v) {
+      const Values at = mechanics::KOSHI_ISA::load(x + i + v * lanes);
+      least[v] = lesser(least[v], at);
+      most[v] = greater(most[v], at);
     }
-  for (; i < count; ++i) largest[0] = square(i) > largest[0] ? square(i) : largest[0];
-  return *std::max_element(largest, largest + lanes);
+  double least_left = x[0], most_left = x[0];
+  for (; i < count; ++i) {
+    least_left = lesser(least_left, x[i]);
+    most_left = greater(most_left, x[i]);
+  }
+  *low = chosen(lesser(least[0], least[1]), least_left, lesser);
+  *high = chosen(greater(most[0], most[1]), most_left, greater);
 }
 
 }  // namespace
 
-extern const StrainRows functions{rows, largest_square};
+extern const StrainRows functions{rows, range};
 
 }  // namespace koshi::failure::KOSHI_ISA

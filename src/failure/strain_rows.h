@@ -17,8 +17,8 @@ struct StrainRow {
 struct StrainRows {
   /// Mean strain tr/3 and radius of the deviator (theory, 12: p and r) of cells 0 <= i < cells; `scale` is 1/(4 d).
   void (*strain)(const StrainRow& row, double scale, std::int64_t cells, double* mean, double* radius);
-  /// The largest square of a vector; components of one lie `component` apart.
-  double (*largest_square)(const double* x, std::ptrdiff_t component, std::int64_t count);
+  /// The least and the largest of count >= 1 numbers.
+  void (*range)(const double* x, std::int64_t count, double* low, double* high);
 };
 
 /// Functions for this processor.

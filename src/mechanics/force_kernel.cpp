@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
 
 #include "lattice/halo.h"
 #include "mechanics/cell_table.h"
@@ -14,6 +15,10 @@ using model::SpringLattice;
 
 // Of a second-level cache, the part that the values of a block of rows may fill [bytes].
 constexpr std::int64_t cache = 768 * 1024;
+
+// Cells whose constants are made at a time; a strip has a multiple of them, and a vector has no more.
+constexpr std::int64_t few = lattice::Layout::lead;
+static_assert(strip_cells % few == 0);
 
 // Are there cells below the first owned nodes in x? (Not where rows of the body are whole.)
 bool cells_below(const SpringLattice& body) { return body.layout.begin()[0] > 0 || body.grid.periodic[0]; }
@@ -32,6 +37,7 @@ ForceKernel::ForceKernel(const SpringLattice& lattice)
                       std::vector<double>(static_cast<std::size_t>(lattice.layout.owned()[0] + lattice::Layout::lead)));
     return;
   }
+  materials_.fill(std::numeric_limits<std::uint16_t>::max());  // of no material: nothing is made yet
   if (!lattice.surface.empty()) cut_ = std::make_unique<CutForces>(lattice);
   for (const material::Springs& springs : lattice.springs) {
     const auto constants = springs_of_cell(springs, lattice.grid.d);
@@ -47,6 +53,10 @@ const double* ForceKernel::constants(std::int64_t i, std::int64_t j, std::int64_
   const std::int64_t n = lattice_.layout.index(i, j, k);
   const std::uint16_t* const material = lattice_.cell.component(0) + n;
   const float* const factor = lattice_.factor.components() == 0 ? nullptr : lattice_.factor.component(0) + n;
+  // The next row of the strip is fetched on the way.
+  __builtin_prefetch(material + lattice_.layout.pitch(), 0, 2);
+  if (factor != nullptr)
+    for (std::int64_t c = 0; c < cells; c += 2 * few) __builtin_prefetch(factor + lattice_.layout.pitch() + c, 0, 2);
   const std::size_t material_bytes = static_cast<std::size_t>(cells) * sizeof *material;
   const std::size_t factor_bytes = static_cast<std::size_t>(cells) * sizeof *factor;
   static constexpr std::array<std::uint16_t, strip_cells> none{};
@@ -54,9 +64,16 @@ const double* ForceKernel::constants(std::int64_t i, std::int64_t j, std::int64_
   const bool known = std::memcmp(material, materials_.data(), material_bytes) == 0 &&
                      (factor == nullptr || std::memcmp(factor, factors_.data(), factor_bytes) == 0);
   if (known) return to;
-  std::memcpy(materials_.data(), material, material_bytes);
-  if (factor != nullptr) std::memcpy(factors_.data(), factor, factor_bytes);
-  strip_kernels<double>().prepare(material, factor, table_.data(), cells, to);
+  // Few cells of a strip differ from those of the last one where some have cracked.
+  for (std::int64_t c = 0; c < cells; c += few) {
+    const auto at = static_cast<std::size_t>(c);
+    if (std::memcmp(material + c, &materials_[at], few * sizeof *material) == 0 &&
+        (factor == nullptr || std::memcmp(factor + c, &factors_[at], few * sizeof *factor) == 0))
+      continue;
+    std::memcpy(&materials_[at], material + c, few * sizeof *material);
+    if (factor != nullptr) std::memcpy(&factors_[at], factor + c, few * sizeof *factor);
+    strip_kernels<double>().prepare(material + c, factor == nullptr ? nullptr : factor + c, table_.data(), few, to + c);
+  }
   return to;
 }
 

@@ -3,9 +3,11 @@
 
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "driver/simulation.h"
 #include "failure/cracking.h"
+#include "failure/row_reach.h"
 #include "support/cases.h"
 #include "support/watched_run.h"
 
@@ -249,6 +251,62 @@ TEST(Cracking, RowsThatAreFarFromTheirLimitsMissNothing) {
   EXPECT_GT(cracked, 20);
   EXPECT_GT(intact, 500);
   EXPECT_EQ(equal, cracked + intact);
+}
+
+// A length of 0.9 mm for the nodes around a row of cells. What they move in common takes nothing off it; where one of
+// them is faster by (0.3, 0, 0.4) m/s, 1 ms takes off half of 0.5 mm, so that the fourth spends it.
+TEST(Cracking, MotionsInCommonSpendNothing) {
+  const model::Model model = model::make_model(test::block({20, 3, 2}, 0.01, concrete), Communicator::self());
+  model::State state(model);
+  const lattice::Layout& layout = model.layout();
+  lattice::for_each_owned(layout, [&](auto, auto, auto, auto n) {
+    for (int c = 0; c < 3; ++c) state.velocity.component(c)[n] = 1000.0 * (c - 1) + 7;
+  });
+  failure::RowReach reach(model.lattice, state.velocity);
+  const std::size_t row = failure::cell_row(layout, 1, 0), other = failure::cell_row(layout, 0, 0);
+  std::vector<char> rows(failure::cell_row(layout, layout.owned()[1], layout.owned()[2]), 0);
+  rows[row] = 1;
+  reach.keep(rows);
+  EXPECT_TRUE(reach.is_spent(row));
+  EXPECT_FALSE(reach.is_spent(other)) << "it does not count";
+  reach.set(row, 0.9e-3);
+  reach.spend(1);
+  EXPECT_FALSE(reach.is_spent(row));
+  // Rows that were noted before are taken as they were then, for one step.
+  for (std::int64_t k = 0; k < 2; ++k)
+    for (std::int64_t j = 1; j < 3; ++j) reach.note(j, k);
+  const std::int64_t node = layout.index(17, 2, 1);
+  state.velocity.component(0)[node] += 0.3;
+  state.velocity.component(2)[node] += 0.4;
+  reach.spend(1);
+  for (int step = 0; step < 4; ++step) {
+    EXPECT_FALSE(reach.is_spent(row)) << step;
+    reach.spend(1e-3);
+  }
+  EXPECT_TRUE(reach.is_spent(row));
+  reach.set(row, 1);
+  EXPECT_FALSE(reach.is_spent(row));
+  reach.forget();
+  EXPECT_TRUE(reach.is_spent(row));
+}
+
+// What damping takes, of free components of nodes that are held along others too: energies add up to rounding with
+// either kind.
+TEST(Cracking, DampingIsCountedOfWhatIsFree) {
+  using Kind = model::DampingDefinition::Kind;
+  for (const auto& [kind, factor, rate] : {std::tuple{Kind::local, 0.5, 0.0}, {Kind::viscous, 0.0, 2e4}}) {
+    model::Definition definition = bar(0.01, material::Kinematics::rotational);
+    definition.boundaries[1].history = {{0, 0}, {1e-4, 0.02}, {2e-4, 0.01}, {1e-3, 0.03}};
+    definition.boundaries[1].displacement[1] = 1e-5;
+    definition.analysis.duration = 1e-3;
+    definition.analysis.damping = {kind, factor, rate};
+    const Watched seen = watch(definition);
+    EXPECT_EQ(seen.end.cracked, 0);
+    EXPECT_GT(seen.end.damped, 0.03 * seen.end.given);
+    EXPECT_LT(seen.end.damped, seen.end.given);
+    EXPECT_LT(seen.unbalanced, 1e-9) << static_cast<int>(kind);
+    EXPECT_GT(seen.rows, 40);
+  }
 }
 
 }  // namespace
