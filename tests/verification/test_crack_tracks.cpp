@@ -63,8 +63,8 @@ void for_each_followed(const model::Model& model, F&& f) {
 }
 
 // One cracked cell, its plane a fifth of a cell off its middle. Which neighbours it cuts is told by their corners: some
-// on one side of the plane, some on the other. Those take up the plane where it is, the others hold 2 f_t, and if they
-// crack by then a crack that goes the same way has no plane of its own. Cells further away know nothing.
+// on one side of the plane, some on the other. Those take up the plane where it is, the others hold 1.5 f_t, and if
+// they crack by then a crack that goes the same way has no plane of its own. Cells further away know nothing.
 TEST(CrackTracks, GoOnInTheCellsThatThePlaneCuts) {
   const model::Model model = block({9, 8, 7});
   model::State state(model);
@@ -87,7 +87,7 @@ TEST(CrackTracks, GoOnInTheCellsThatThePlaneCuts) {
     for (int c = 0; c < 8; ++c) up += above((c & 1) - 0.5, (c >> 1 & 1) - 0.5, (c >> 2) - 0.5) > 0;
     const bool cut = up > 0 && up < 8;
     if (model.layout().owns(model.layout().place(n))) ++seen[cut];
-    EXPECT_EQ(tracks.hold(n, crack(normal)), cut ? 1 : 2);
+    EXPECT_EQ(tracks.hold(n, crack(normal)), cut ? 1 : 1.5);
     EXPECT_EQ(tracks.hold(n, crack(normal, true)), 1);
     if (!cut) {
       EXPECT_TRUE(std::isinf(tracks.offset(n, crack(other))));
