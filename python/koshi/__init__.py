@@ -10,13 +10,13 @@ Describe a case with the dataclasses below, or load one from a file, make a `Sim
 """
 
 from .calibration import calibrate
-from .case import (
+from .case import Case, InputError, RunError, load
+from .simulation import MeanState, Measurement, Mode, Result, Simulation, run
+from .tables import (
     Analysis,
     Body,
     Boundary,
-    Case,
     Crack,
-    InputError,
     Lattice,
     Load,
     Macroscopic,
@@ -24,11 +24,8 @@ from .case import (
     Output,
     Probe,
     Region,
-    RunError,
     Selection,
-    load,
 )
-from .simulation import MeanState, Measurement, Mode, Result, Simulation, run
 from ._koshi import __version__
 
 __all__ = [

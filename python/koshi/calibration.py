@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 
 from . import _koshi
-from .case import Body, Case, Lattice, Material, Vector, _definition
+from .case import Case, _definition
+from .tables import Body, Lattice, Material, Vector
 
 
 def calibrate(lattice: Lattice, material: Material, size: Vector | None = None) -> dict:
