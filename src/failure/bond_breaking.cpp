@@ -33,7 +33,7 @@ bool holds_together(std::uint32_t whole) {
 }  // namespace
 
 BondBreaking::BondBreaking(model::Model& model, model::State& state)
-    : Fracturing(model, state), bond_rows_(bond_rows()) {
+    : Fracturing(model, state), forces_(model.layout(), state.face_force), bond_rows_(bond_rows()) {
   const lattice::Layout& layout = model.layout();
   const model::SpringLattice& body = model.lattice;
   model.lattice.broken = lattice::Field<std::uint16_t>(layout, 1);

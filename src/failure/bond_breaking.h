@@ -11,6 +11,7 @@
 #include "failure/fracturing.h"
 #include "mechanics/cell_bonds.h"
 #include "mechanics/cell_stress.h"
+#include "mechanics/corner_forces.h"
 
 namespace koshi::failure {
 
@@ -23,6 +24,7 @@ class BondBreaking : public Fracturing {
 
   void restore() override;
   void follow(double dt) override;
+  void add_forces(std::int64_t j, std::int64_t k, double* const* force) const override { forces_.add(j, k, force); }
 
   /// Bonds that are broken (collective).
   std::int64_t count() const;
@@ -56,6 +58,7 @@ class BondBreaking : public Fracturing {
   void clear_forces();
   void add_up_forces();
 
+  mechanics::CornerForces forces_;                             ///< State::face_force
   std::vector<std::optional<BondLimits>> limits_;              ///< by material index
   std::array<std::vector<Int3>, lattice::slot_count> around_;  ///< cells around a bond, from its first node
   std::vector<BondSlot> slots_;                                ///< those with springs

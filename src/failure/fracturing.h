@@ -2,7 +2,6 @@
 #pragma once
 
 #include "koshi/model.h"
-#include "mechanics/corner_forces.h"
 #include "mechanics/measure.h"
 
 namespace koshi::failure {
@@ -46,7 +45,7 @@ class Fracturing {
   virtual void look_again() {}
 
   /// Adds what cracks change in the forces on row (j, k), force[c] pointing to node i = 0.
-  virtual void add_forces(std::int64_t j, std::int64_t k, double* const* force) const { forces_.add(j, k, force); }
+  virtual void add_forces(std::int64_t j, std::int64_t k, double* const* force) const = 0;
 
   /// To be called before State::face_force is read: a law may leave it behind from step to step.
   virtual void lay_forces() {}
@@ -61,15 +60,13 @@ class Fracturing {
   /// Cells are looked at a little below their limit, and bonds, so that how the first look was rounded does not matter.
   static constexpr double margin = 1 - 1e-5;
 
-  Fracturing(model::Model& model, model::State& state)
-      : model_(model), state_(state), forces_(model.layout(), state.face_force) {}
+  Fracturing(model::Model& model, model::State& state) : model_(model), state_(state) {}
 
   /// What the cracks of an owned cell change in the stored energy [J].
   virtual double stored_energy(std::int64_t n) const = 0;
 
   model::Model& model_;
   model::State& state_;
-  mechanics::CornerForces forces_;  ///< State::face_force
 };
 
 }  // namespace koshi::failure

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "base/lane_sum.h"
 #include "homogenize/cells.h"
 #include "lattice/halo.h"
 #include "lattice/partition.h"
@@ -24,20 +25,6 @@ model::SpringLattice one_cell(const model::SpringLattice& body) {
   cell.kinematics = body.kinematics;
   cell.springs = body.springs;
   return cell;
-}
-
-// Sum over a run of nodes, in an order that depends on its length alone.
-template <class Weight>
-double sum(const double* values, std::int64_t count, Weight&& weight) {
-  constexpr std::int64_t lanes = 8;
-  std::array<double, lanes> part{};
-  std::int64_t i = 0;
-  for (; i + lanes <= count; i += lanes)
-    for (std::int64_t l = 0; l < lanes; ++l) part[static_cast<std::size_t>(l)] += weight(i + l) * values[i + l];
-  for (std::int64_t l = 0; i < count; ++i, ++l) part[static_cast<std::size_t>(l)] += weight(i) * values[i];
-  double total = 0;
-  for (const double p : part) total += p;
-  return total;
 }
 
 }  // namespace
@@ -63,8 +50,9 @@ void PhaseSums::add_run(const lattice::Field<double>& u, std::int64_t n, std::in
     for (int c = 0; c < u.components(); ++c) {
       const double* const values = u.component(c) + node;
       sums[at + static_cast<std::size_t>(6 * a + c)] +=
-          factor == nullptr ? sum(values, count, [](std::int64_t) { return 1.0; })
-                            : sum(values, count, [&](std::int64_t i) { return static_cast<double>(factor[i]); });
+          factor == nullptr
+              ? lane_sum<8>(count, [&](std::int64_t i) { return values[i]; })
+              : lane_sum<8>(count, [&](std::int64_t i) { return static_cast<double>(factor[i]) * values[i]; });
     }
   }
 }

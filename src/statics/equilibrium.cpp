@@ -33,16 +33,13 @@ Equilibrium::Equilibrium(const model::Model& model, double t, lattice::Field<dou
   auto motion = model.motions.begin();
   const lattice::Layout& layout = model.layout();
   std::int64_t number = 0;
-  lattice::for_each_owned(layout, [&](auto i, auto j, auto k, auto n) {
-    FixedNode fixed{{i, j, k}, 0, {}};
-    for (; motion != model.motions.end() && motion->node == n; ++motion) {
-      fixed.mask |= static_cast<std::uint8_t>(1 << motion->component);
+  lattice::for_each_owned(layout, [&](auto, auto, auto, auto n) {
+    for (; motion != model.motions.end() && motion->node == n; ++motion)
       prescribed_.push_back(
           {number + motion->component * node_count_, n, motion->component, motion->boundary, motion->value, 0});
-    }
-    if (fixed.mask != 0) fixed_.push_back(fixed);
     ++number;
   });
+  fixed_ = fixed_nodes(model);
   set_time(t);
 }
 

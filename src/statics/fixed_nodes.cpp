@@ -13,6 +13,16 @@ bool before(const FixedNode& a, const FixedNode& b) {
 
 }  // namespace
 
+FixedNodes fixed_nodes(const model::Model& model) {
+  FixedNodes list;
+  for (const model::PrescribedMotion& motion : model.motions) {  // by node
+    const Int3 node = model.layout().place(motion.node);
+    if (list.empty() || list.back().node != node) list.push_back({node, 0, {}});
+    list.back().mask |= static_cast<std::uint8_t>(1 << motion.component);
+  }
+  return list;
+}
+
 FixedNodes coarsened(const FixedNodes& fine, const Int3& owned, const Int3& coarse_owned) {
   FixedNodes halved;
   for (const FixedNode& fixed : fine) {

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "koshi/model.h"
 #include "statics/row_field.h"
 
 namespace koshi::statics {
@@ -20,6 +21,9 @@ struct FixedNode {
 
 /// In memory order.
 using FixedNodes = std::vector<FixedNode>;
+
+/// Nodes of the rank of which motions prescribe components; of no springs.
+FixedNodes fixed_nodes(const model::Model& model);
 
 /// On the next coarser level a component is fixed where it is fixed on one of the eight fine nodes 2 I + {0, 1}^3. A
 /// fixed face between two coarse planes thus moves by one fine cell, and a single fixed node stays a single node. (Only

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/exact_sum.h"
+#include "base/lane_sum.h"
 #include "base/out_of_memory.h"
 #include "base/progress.h"
 #include "mechanics/uniform_strain.h"
@@ -29,30 +30,9 @@ double to_come(const std::vector<double>& released) {
   return ratio < 1 ? released[n - 1] * ratio / (1 - ratio) : std::numeric_limits<double>::infinity();
 }
 
-// Sum of products along a row, in an order that depends on its length alone.
+// Sum of products along a row.
 double row_product(const float* a, const float* b, std::int64_t count) {
-  constexpr std::int64_t lanes = 16;
-  std::array<double, lanes> sum{};
-  std::int64_t i = 0;
-  for (; i + lanes <= count; i += lanes)
-    for (std::int64_t l = 0; l < lanes; ++l)
-      sum[static_cast<std::size_t>(l)] += static_cast<double>(a[i + l]) * static_cast<double>(b[i + l]);
-  for (std::int64_t l = 0; i < count; ++i, ++l)
-    sum[static_cast<std::size_t>(l)] += static_cast<double>(a[i]) * static_cast<double>(b[i]);
-  double total = 0;
-  for (const double s : sum) total += s;
-  return total;
-}
-
-// The held components of the model's nodes.
-FixedNodes held_nodes(const model::Model& model) {
-  FixedNodes list;
-  for (const model::PrescribedMotion& motion : model.motions) {
-    const Int3 node = model.layout().place(motion.node);
-    if (list.empty() || list.back().node != node) list.push_back({node, 0, {}});
-    list.back().mask |= static_cast<std::uint8_t>(1 << motion.component);
-  }
-  return list;
+  return lane_sum<16>(count, [&](std::int64_t i) { return static_cast<double>(a[i]) * static_cast<double>(b[i]); });
 }
 
 }  // namespace
@@ -71,7 +51,7 @@ MixedGradients::MixedGradients(const model::Model& model, const StaticOptions& o
       start_(steady_seconds()),
       session_(model.communicator, options.petsc_options),
       kernel_(model.lattice) {
-  const FixedNodes held = held_nodes(model);
+  const FixedNodes held = fixed_nodes(model);
   free_ = std::make_unique<FreeMotions>(model, held);
   while_making("the levels of the solver", [&] {
     preconditioner_ = std::make_unique<Preconditioner>(model, held, *free_);
@@ -182,6 +162,7 @@ SolveReport MixedGradients::solve(const mechanics::Tensor6& mean_strain, double 
   // Energies in units of the level.
   std::vector<double> released;
   double all_released = 0;
+  const auto is_released = [&] { return to_come(released) <= options_.tolerance * all_released; };
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   while (true) {
     report.relative_residual = reference > 0 ? norm / reference : 0;
@@ -189,7 +170,7 @@ SolveReport MixedGradients::solve(const mechanics::Tensor6& mean_strain, double 
     if (options_.progress) options_.progress(report.iterations, report.relative_residual);
     if (norm <= absolute)
       reason = KSP_CONVERGED_ATOL;
-    else if (to_come(released) <= options_.tolerance * all_released)
+    else if (is_released())
       reason = KSP_CONVERGED_RTOL;
     if (!std::isfinite(norm)) reason = KSP_DIVERGED_NANORINF;
     report.stopped = options_.stop && options_.stop();
@@ -211,8 +192,7 @@ SolveReport MixedGradients::solve(const mechanics::Tensor6& mean_strain, double 
     norm = advance(rz / work, u);
     released.push_back(rz * rz / work);
     all_released += released.back();
-    const bool ends = norm <= absolute || to_come(released) <= options_.tolerance * all_released;
-    if (ends || norm <= fall * taken) {
+    if (norm <= absolute || is_released() || norm <= fall * taken) {
       mechanics::exchange_displacements(model_, mean_strain, u);
       norm = taken = take_residual(u);
     }
