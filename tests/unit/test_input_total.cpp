@@ -107,6 +107,27 @@ TEST(Total, DeepNesting) {
   EXPECT_NE(message_of(tables), "");
 }
 
+// Dots of a text are no keys, whatever quotes it has; those of a key behind it count.
+TEST(Total, DotsInTexts) {
+  const std::string dots(300, '.');
+  std::string keys = "b";
+  for (int i = 0; i < 300; ++i) keys += ".b";
+  const std::vector<std::string> texts{
+      "\"" + dots + "\"",
+      "'" + dots + "\\'",
+      "\"\\\"" + dots + "\"",
+      "\"\"\"\n" + dots + "\"\"\"",
+      "\"\"\"\\\"\"" + dots + "\"\"\"\"\"",
+      "'''" + dots + "\n''''",
+  };
+  for (const std::string& text : texts) {
+    const std::string refused = "100 dots in a row";
+    EXPECT_EQ(message_of("title = " + text + " # it's " + dots).find(refused), std::string::npos) << text;
+    EXPECT_NE(message_of("title = " + text + "\n" + keys + " = 1").find(refused), std::string::npos) << text;
+    EXPECT_NE(message_of("a = [" + text + ", {" + keys + " = 1}]").find(refused), std::string::npos) << text;
+  }
+}
+
 // Many tables of a list take time in proportion.
 TEST(Total, ManyTables) {
   std::string text = right_case;

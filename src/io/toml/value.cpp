@@ -43,25 +43,59 @@ Value value_of(const toml::node& node, const std::string& file_name) {
   return value;
 }
 
+// Number of characters of the string that text begins with, its quotes among them; one left open by "...": up to the
+// end of the line, by """...""": up to the end of the text.
+std::size_t string_length(std::string_view text) {
+  const char quote = text.front();
+  const std::string fence(3, quote);
+  const bool lines = text.starts_with(fence);
+  std::size_t at = lines ? 3 : 1;
+  for (; at < text.size(); ++at) {
+    if (text[at] == '\\' && quote == '"') {
+      ++at;
+      continue;
+    }
+    if (!lines && text[at] == '\n') return at;
+    if (!lines && text[at] == quote) return at + 1;
+    if (!lines || !text.substr(at).starts_with(fence)) continue;
+    // Up to two quotes before the closing ones belong to the text.
+    at += 3;
+    for (int more = 0; more < 2 && text.substr(at).starts_with(quote); ++more) ++at;
+    return at;
+  }
+  return text.size();
+}
+
 // Every dot of a key nests one table in another, and trees are walked by recursion: a key of a million dots would
-// exhaust the stack. No key of a case has more than a few.
+// exhaust the stack. No key of a case has more than a few. Dots within strings are text.
 void refuse_deep_keys(std::string_view text, const std::string& file_name) {
   constexpr int most = 100;
+  std::size_t line_begin = 0;
   int line = 1;
-  int column = 0;
   int dots = 0;
-  bool in_comment = false;
-  for (const char c : text) {
-    ++column;
-    if (c == '\n') {
-      ++line;
-      column = 0;
+  std::size_t at = 0;
+  const auto pass = [&](std::size_t end) {
+    for (; at < end; ++at)
+      if (text[at] == '\n') {
+        ++line;
+        line_begin = at + 1;
+      }
+  };
+  while (at < text.size()) {
+    const char c = text[at];
+    if (c == '#') {
+      pass(std::min(text.find('\n', at), text.size()));
+      continue;
     }
-    if (c == '#') in_comment = true;
-    if (c == '\n') in_comment = false;
-    if (c == '.' && !in_comment && ++dots > most)
-      throw InputError({file_name, line, column}, fmt::format("more than {} dots in a row; keys have a few", most));
+    if (c == '"' || c == '\'') {
+      pass(at + string_length(text.substr(at)));
+      continue;
+    }
+    if (c == '.' && ++dots > most)
+      throw InputError({file_name, line, static_cast<int>(at - line_begin) + 1},
+                       fmt::format("more than {} dots in a row; keys have a few", most));
     if (std::string_view(",=[]{}\n").find(c) != std::string_view::npos) dots = 0;
+    pass(at + 1);
   }
 }
 
