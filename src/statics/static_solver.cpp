@@ -1,5 +1,6 @@
 #include "statics/static_solver.h"
 
+#include <algorithm>
 #include <exception>
 
 #include "base/out_of_memory.h"
@@ -9,6 +10,9 @@
 
 namespace koshi::statics {
 namespace {
+
+// Rounding ends what a residual can reach at about this part of the forces that made the displacements.
+constexpr double rounding = 1e-12;
 
 /// What the callbacks from PETSc need; exceptions wait here until PETSc has returned.
 struct Context {
@@ -116,6 +120,12 @@ SolveReport StaticSolver::solve(double* right_hand_side, double absolute, lattic
   check(VecDuplicate(b, x.create()));
   free_.project(right_hand_side);
   check(VecNorm(b, NORM_2, &context.reference));
+  if (from_there) {
+    // Loads that go back to zero leave displacements of rounding size, which no longer have a scale of their own.
+    largest_ = std::max(largest_, context.reference);
+    absolute = rounding * largest_;
+    context.reference = std::max(context.reference, absolute / options_.tolerance);
+  }
 
   PetscKsp solver;
   check(KSPCreate(comm, solver.create()));

@@ -28,7 +28,8 @@ class StaticSolver {
   SolveReport solve(double* right_hand_side, double absolute, lattice::Field<double>& displacement) {
     return solve(right_hand_side, absolute, displacement, false);
   }
-  /// The same from where the displacements are, which are not the field `work`.
+  /// The same from where the displacements are, which are not the field `work`. It also ends at a residual of rounding
+  /// size, as the largest right-hand side of all calls has it, and reports residuals relative to no less.
   SolveReport improve(double* right_hand_side, lattice::Field<double>& displacement) {
     return solve(right_hand_side, 0, displacement, true);
   }
@@ -42,6 +43,7 @@ class StaticSolver {
   const StaticOptions& options_;
   double start_;  ///< wall time at which the setup began [s]
   double setup_seconds_ = 0;
+  double largest_ = 0;  ///< 2-norm of the right-hand sides of improve() [N]
   PetscSession session_;
   Equilibrium equilibrium_;
   FreeMotions free_;

@@ -81,6 +81,21 @@ TEST(CrackSteps, CracksCloseAndOpen) {
   EXPECT_LT(energy_gap(seen), 1e-6);
 }
 
+// Held at no load, the bar is at rest but for rounding, of which its equilibria keep none of the digits: a right-hand
+// side that has gone back to nothing, or to the last digit of what it was, has no size by which to judge them.
+TEST(CrackSteps, UnloadedBodiesRest) {
+  for (const double rest : {0.0, 1e-17, -1e-17, 3e-19}) {
+    model::Definition definition = stepped(cracking_bar(0.005, least_squares, material::Softening::linear), 1e-4, 40);
+    definition.boundaries[1].history = {{0, 0}, {1, 0.3}, {2, rest}, {3, rest}, {4, 0.3}};
+    const Followed seen = follow_cracks(definition);
+    ASSERT_EQ(seen.rows.size(), 41u) << rest;
+    for (std::size_t row = 20; row <= 30; ++row) EXPECT_NEAR(seen.rows[row].force, 0, 1e-9 * 300) << rest;
+    EXPECT_NEAR(seen.rows[40].force, seen.rows[10].force, 1e-6 * 300) << rest;
+    EXPECT_EQ(seen.rows[40].balance.cracked, seen.rows[11].balance.cracked) << rest;
+    EXPECT_GT(seen.rows[10].balance.cracked, 1e-3) << rest;
+  }
+}
+
 // Under a given force nothing holds the bar beyond its strength of 300 N: it parts in the first step above it, and the
 // last row is that of the step before.
 TEST(CrackSteps, BodiesUnderLoadsPart) {
