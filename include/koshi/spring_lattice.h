@@ -36,11 +36,10 @@ inline constexpr int moment_count = 23;
 /// Order: model/moments.h.
 using Moments = std::array<double, moment_count>;
 
-/// A cell at a surface: one that a surface cuts, or a whole one beside such.
+/// A cell that a surface cuts.
 struct SurfaceCell {
-  std::int64_t cell = 0;     ///< index of its lowest corner
-  std::int32_t part = -1;    ///< in SpringLattice::moments; -1: it is whole
-  std::uint8_t corners = 0;  ///< its corners that a cut cell has too, as bits
+  std::int64_t cell = 0;  ///< index of its lowest corner
+  Moments moments{};      ///< of the part inside
 };
 
 /// Cells and springs on one rank's nodes and ghosts. Fields of cells have one component, with the cell's value at the
@@ -66,8 +65,7 @@ struct SpringLattice {
   /// Of nodes: bit `slot` of the forward bonds that are broken, all of their cells' shares; no components where bonds
   /// do not break. Measures and make_bonds() leave them out, the cell kernel does not.
   lattice::Field<std::uint16_t> broken;
-  std::vector<SurfaceCell> surface;        ///< by index; those with a fraction between 0 and 1 are cut; frozen
-  std::vector<Moments> moments;            ///< of the parts inside of cut cells
+  std::vector<SurfaceCell> surface;        ///< cells with a fraction between 0 and 1, by index; frozen
   std::vector<material::Springs> springs;  ///< by material index; entry 0 (empty) is zero
   /// Plain springs only, known on owned and ghost nodes: stiffness of forward bonds, component 2 slot: kn [N/m],
   /// 2 slot + 1: kt [N/m].
@@ -101,8 +99,7 @@ SpringLattice make_cells(const lattice::Grid& grid, std::shared_ptr<const lattic
 /// cells are the same.
 void make_fractions(SpringLattice& body, const std::function<float(const Int3&)>& fraction_of);
 
-/// Gives the cells with a fraction between 0 and 1 the moments of the part inside, `moments_of(global cell)`, and finds
-/// the cells beside them (collective).
+/// Gives the cells with a fraction between 0 and 1 the moments of the part inside, `moments_of(global cell)`.
 void make_surface(SpringLattice& body, const std::function<Moments(const Int3&)>& moments_of);
 
 /// Gives the cells factors, `factor_of(global cell)`, 0 ... 1, times their fractions.

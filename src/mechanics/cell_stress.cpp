@@ -6,6 +6,7 @@
 #include "mechanics/cell_bonds.h"
 #include "mechanics/corners.h"
 #include "mechanics/cut_forces.h"
+#include "mechanics/strain_tie.h"
 
 namespace koshi::mechanics {
 namespace {
@@ -98,13 +99,22 @@ CellState cell_state(const model::SpringLattice& body, const CellMotion& motion,
     state.stress[v] += pressure;
     state.energy += 0.5 * pressure * state.strain[v];
   }
-  // At a surface what makes it smooth: virial and work of those forces.
+  // Less the tie of strain, where the kernel has none.
+  if (!strain_is_tied(body)) {
+    const Tensor6 tie = tie_stress(body.springs[body.cell.component(0)[cell]], d, motion);
+    for (int v = 0; v < 6; ++v) {
+      const double stress = body.factor_of(cell) * tie[v];
+      state.stress[v] -= stress;
+      state.energy -= (v < 3 ? 1 : 2) * stress * state.strain[v];
+    }
+  }
+  // In a cell that a surface cuts what makes it smooth: virial and work of those forces.
   if (const model::SurfaceCell* at_surface = surface_cell(body, cell)) {
-    const CellMotion force = cut_forces(body, *at_surface, motion);
+    const std::array<Vec3, 8> force = cut_forces(body, *at_surface, displacement);
     for (int a = 0; a < 8; ++a) {
       const auto at = corner(a);
-      const Vec3& F = force.displacement[a];
-      state.energy -= 0.5 * (dot(displacement[a], F) + dot(rotation[a], force.rotation[a])) / volume;
+      const Vec3& F = force[a];
+      state.energy -= 0.5 * dot(displacement[a], F) / volume;
       for (int v = 0; v < 6; ++v) {
         const auto [i, j] = tensor_axes[v];
         state.stress[v] -= 0.5 * d * (at[i] * F[j] + at[j] * F[i]) / volume;

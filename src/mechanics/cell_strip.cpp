@@ -27,23 +27,24 @@ enum Prepared {
   fb,
   own_1,    // en + fb + ft + t
   sum_sum,  // (t + g)/2 + fb + bb
-  bb,
-  third,  // 2 et + en + bt + bb
+  bb,       // 0 where strain is not tied
+  third,    // 2 et + en + bt + bb
   g,
   own_0,  // 2 g + bt
   bt,
   t,
   axial_1,  // en + fb + ft
   ft,
-  half_g,
+  half_g,      // 0 where strain is not tied
   turn_third,  // et + bt
   turn_turn,   // (et + g)/2 + bt
-  et
+  et,
+  strain_turn  // g; 0 where strain is not tied
 };
-static_assert(et < prepared_constants);
+static_assert(strain_turn < prepared_constants);
 
 template <class T>
-KOSHI_INLINE void store_prepared(const typename Vector<T>::type* k, T* to) {
+KOSHI_INLINE void store_prepared(const typename Vector<T>::type* k, T tied, T* to) {
   const auto en_ = k[0], et_ = k[1], fb_ = k[2], ft_ = k[3], bb_ = k[4], bt_ = k[5], v_ = k[6];
   const auto t_ = et_ + ft_, g_ = ft_ + bt_, axial = en_ + fb_ + ft_;
   const T half = T(0.5);
@@ -54,7 +55,7 @@ KOSHI_INLINE void store_prepared(const typename Vector<T>::type* k, T* to) {
   put(fb, fb_);
   put(own_1, axial + t_);
   put(sum_sum, half * (t_ + g_) + (fb_ + bb_));
-  put(bb, bb_);
+  put(bb, tied * bb_);
   put(third, (et_ + et_) + (en_ + bt_) + bb_);
   put(g, g_);
   put(own_0, g_ + g_ + bt_);
@@ -62,14 +63,16 @@ KOSHI_INLINE void store_prepared(const typename Vector<T>::type* k, T* to) {
   put(t, t_);
   put(axial_1, axial);
   put(ft, ft_);
-  put(half_g, half * g_);
+  put(half_g, tied * half * g_);
   put(turn_third, et_ + bt_);
   put(turn_turn, half * (et_ + g_) + bt_);
   put(et, et_);
+  put(strain_turn, tied * g_);
 }
 
 template <class T>
-void prepare(const std::uint16_t* material, const float* factor, const T* table, std::int64_t cells, T* prepared) {
+void prepare(const std::uint16_t* material, const float* factor, const T* table, T tied, std::int64_t cells,
+             T* prepared) {
   using V = typename Vector<T>::type;
   constexpr std::int64_t lanes = width<T>;
   constexpr int parts = (table_constants + lanes - 1) / lanes;
@@ -86,16 +89,16 @@ void prepare(const std::uint16_t* material, const float* factor, const T* table,
       const V s = widened<T>(factor + i);
       for (int q = 0; q < cell_constants; ++q) constants[q] *= s;
     }
-    store_prepared<T>(constants, prepared + i);
+    store_prepared<T>(constants, tied, prepared + i);
   }
 }
 
 template <class T>
-void prepare_rows(const T* constants, std::ptrdiff_t pitch, std::int64_t cells, T* prepared) {
+void prepare_rows(const T* constants, std::ptrdiff_t pitch, T tied, std::int64_t cells, T* prepared) {
   for (std::int64_t i = 0; i < cells; i += width<T>) {
     typename Vector<T>::type k[cell_constants];
     for (int q = 0; q < cell_constants; ++q) k[q] = load(constants + q * pitch + i);
-    store_prepared<T>(k, prepared + i);
+    store_prepared<T>(k, tied, prepared + i);
   }
 }
 
@@ -149,7 +152,7 @@ KOSHI_INLINE void class_0(const Constants<T>& k, V& X, V& Y, V& Z, V& A, V& B, V
     Z = along * Z + s;
     return;
   }
-  const V turn = k[g], own = k[own_0];
+  const V turn = k[strain_turn], own = k[own_0];
   const V r = k[bt] * (A + B + C);
   const V yz = Y - Z, zx = Z - X, xy = X - Y;
   X = along * X + (turn * (C - B) + s);

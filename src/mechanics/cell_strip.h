@@ -51,10 +51,12 @@ struct NodeRow {
 /// `half_d` on the way in and moments on the way out.
 template <class T>
 struct StripKernels {
-  /// Constants of cells from a table by material, table_constants each, times their factors (null: 1).
-  void (*prepare)(const std::uint16_t* material, const float* factor, const T* table, std::int64_t cells, T* prepared);
+  /// Constants of cells from a table by material, table_constants each, times their factors (null: 1). `tied` is 1, or
+  /// 0 for cells whose uniform strain is not tied to their other motions (strain_tie.h).
+  void (*prepare)(const std::uint16_t* material, const float* factor, const T* table, T tied, std::int64_t cells,
+                  T* prepared);
   /// The same from rows of the seven constants, `pitch` elements apart.
-  void (*prepare_rows)(const T* constants, std::ptrdiff_t pitch, std::int64_t cells, T* prepared);
+  void (*prepare_rows)(const T* constants, std::ptrdiff_t pitch, T tied, std::int64_t cells, T* prepared);
   /// Values of two node rows next to each other in z. Reads one node beyond the strip.
   void (*transform)(int components, T half_d, const NodeRow<const T>& low, const NodeRow<const T>& high,
                     std::int64_t cells, T* values);

@@ -63,71 +63,6 @@ KOSHI_INLINE void butterfly(V* v) {
 /// Axes after one, in turn.
 constexpr int next(int axis) { return (axis + 1) % 3; }
 
-// What the springs give to the rotations of corners, R = G A, from the amplitudes of the displacements; with `back`
-// what those give to the displacements, A += G^T R. Amplitudes of both by component and mode; the classes of
-// cell_strip.cpp.
-template <bool back, class K, class Displacements>
-KOSHI_INLINE void couple(const K& constant, Displacements A, V (*R)[8]) {
-  const auto add = [&](const V& k, int i, int mode_u, int c, int mode_w) {
-    if constexpr (back)
-      A[i][mode_u] += k * R[c][mode_w];
-    else
-      R[c][mode_w] += k * A[i][mode_u];
-  };
-  const V none = constant(13), one = constant(14), axis = constant(15), two = constant(16), third = constant(17),
-          three = constant(18);
-  for (int x = 0; x < 3; ++x) {
-    const int y = next(x), z = next(y), X = 1 << x, Y = 1 << y, Z = 1 << z;
-    add(none, y, Y, x, Y | Z);
-    add(-none, z, Z, x, Y | Z);
-    add(three, y, X | Z, x, X);
-    add(-three, z, X | Y, x, X);
-    // Class x: u_y of mode xy, u_z of xz.
-    add(one, y, X | Y, x, X | Y | Z);
-    add(-one, z, X | Z, x, X | Y | Z);
-    add(axis, z, X | Z, y, Z);
-    add(-axis, y, X | Y, z, Y);
-    // Class x + y: shear of both, and u_z of mode xyz.
-    add(two, x, Y, x, X | Z);
-    add(two, y, X, x, X | Z);
-    add(-third, z, X | Y | Z, x, X | Z);
-    add(-two, x, Y, y, Y | Z);
-    add(-two, y, X, y, Y | Z);
-    add(third, z, X | Y | Z, y, Y | Z);
-  }
-}
-
-// Takes the same away from loose corners, and ties them to the turn of the cell instead: with t = w - own turn the
-// energy whole (tie t^2 / 2 - (G u) t), summed over these corners. Adds its gradient to H, by amplitudes; moments go to
-// the block.
-KOSHI_INLINE void loosen(CutBlock& block, int lane, const V (*A)[8], const V& whole, V (*H)[8]) {
-  const auto at = [lane](CutLanes& lanes) { return load(lanes + lane); };
-  const auto constant = [&](int q) { return at(block.constants[q]); };
-  const V per_d = constant(19);
-  V given[3][8] = {}, turned[3][8], back[3][8] = {};
-  couple<false>(constant, A, given);
-  for (int c = 0; c < 3; ++c) {
-    const int i = next(c), j = next(i);
-    const V own = per_d * (A[j][1 << i] - A[i][1 << j]);
-    V sum = {};
-    butterfly<false>(given[c]);
-    for (int a = 0; a < 8; ++a) {
-      const V loose = whole * at(block.loose[a]);
-      turned[c][a] = loose * (at(block.w[c][a]) - own);
-      const V moment = 0.125 * loose * given[c][a] - constant(20) * turned[c][a];
-      sum += moment;
-      store(block.w[c][a] + lane, moment);
-    }
-    butterfly<true>(turned[c]);
-    H[j][1 << i] += per_d * sum;
-    H[i][1 << j] -= per_d * sum;
-  }
-  couple<true>(constant, back, turned);
-  for (int i = 0; i < 3; ++i)
-    for (int p = 0; p < 8; ++p) H[i][p] -= 0.125 * back[i][p];
-}
-
-template <bool rotational>
 KOSHI_INLINE void cell(CutBlock& block, int lane) {
   const auto at = [lane](CutLanes& lanes) { return load(lanes + lane); };
   V A[3][8], m[23], H[3][8];
@@ -187,7 +122,7 @@ KOSHI_INLINE void cell(CutBlock& block, int lane) {
     for (int i = 0; i < 3; ++i) a[i] = A[i][P ^ 1 << i];
     V h[3];
     if (bits == 0 || bits == 3) {
-      const V own = constant(bits == 0 ? 3 : 11), other = constant(bits == 0 ? 4 : 12);
+      const V own = constant(bits == 0 ? 3 : 9), other = constant(bits == 0 ? 4 : 10);
       sum = a[0] + a[1] + a[2];
       for (int i = 0; i < 3; ++i) h[i] = (own - other) * a[i] + other * sum;
     } else if (bits == 1) {
@@ -198,22 +133,19 @@ KOSHI_INLINE void cell(CutBlock& block, int lane) {
       h[z] = constant(5) * a[z] + constant(6) * a[y];
     } else {
       const int z = P == 6 ? 0 : P == 5 ? 1 : 2, x = (z + 1) % 3, y = (z + 2) % 3;
-      h[x] = constant(7) * a[x] + constant(8) * a[y] + constant(9) * a[z];
-      h[y] = constant(7) * a[y] + constant(8) * a[x] + constant(9) * a[z];
-      h[z] = constant(9) * (a[x] + a[y]) + constant(10) * a[z];
+      h[x] = h[y] = constant(7) * (a[x] + a[y]);
+      h[z] = constant(8) * a[z];
     }
     for (int i = 0; i < 3; ++i) H[i][P ^ 1 << i] -= whole * h[i];
   }
-  if constexpr (rotational) loosen(block, lane, A, at(block.coupled), H);
   for (int i = 0; i < 3; ++i) {
     butterfly<false>(H[i]);
     for (int a = 0; a < 8; ++a) store(block.u[i][a] + lane, -0.125 * H[i][a]);
   }
 }
 
-void forces(CutBlock& block, bool rotational) {
-  for (int lane = 0; lane < cut_lanes; lane += width<double>)
-    rotational ? cell<true>(block, lane) : cell<false>(block, lane);
+void forces(CutBlock& block) {
+  for (int lane = 0; lane < cut_lanes; lane += width<double>) cell(block, lane);
 }
 
 }  // namespace

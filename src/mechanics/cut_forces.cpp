@@ -15,33 +15,9 @@
 namespace koshi::mechanics {
 namespace {
 
-// Stiffness of the tie of a loose corner, over d^3: enough that no cell has a negative energy, whatever its loose
-// corners, for nu from -0.5 to 0.5, and so little that the stable step stays (tests/unit/test_cut_forces.cpp,
-// test_cut.cpp).
-double tie_of(double c12, double c44) { return 0.3 * c44 + 0.6 * std::max(0.0, -c12); }
-
 // Part of the energy of a whole cell's strain gradients that a cut cell has beside that of the part inside, times its
 // fraction: corners that the part hardly reaches would hang loose. Uniform strain does not feel it.
 constexpr double steadying = 0.1;
-
-// What the displacements of a cell give to its node rotations that turn with the cell (by least squares): Kwu + Kww W.
-Eigen::MatrixXd given_to_rotations(const material::Springs& springs, double d) {
-  const Eigen::MatrixXd K = cell_matrix(springs, d, material::Kinematics::rotational);
-  Eigen::MatrixXd wu(24, 24), ww(24, 24), W = Eigen::MatrixXd::Zero(24, 24);
-  for (Eigen::Index p = 0; p < 24; ++p)
-    for (Eigen::Index q = 0; q < 24; ++q) {
-      wu(p, q) = K(p / 3 * 6 + p % 3 + 3, q / 3 * 6 + q % 3);
-      ww(p, q) = K(p / 3 * 6 + p % 3 + 3, q / 3 * 6 + q % 3 + 3);
-    }
-  for (int a = 0; a < 8; ++a)
-    for (int b = 0; b < 8; ++b)
-      for (int c = 0; c < 3; ++c) {
-        const int i = (c + 1) % 3, j = (c + 2) % 3;
-        W(3 * a + c, 3 * b + j) = (2 * corner(b)[static_cast<std::size_t>(i)] - 1) / (8 * d);
-        W(3 * a + c, 3 * b + i) = -(2 * corner(b)[static_cast<std::size_t>(j)] - 1) / (8 * d);
-      }
-  return wu + ww * W;
-}
 
 // Adds the constants of lane `lane`.
 void set_constants(const CutConstants& of, std::size_t lane, CutBlock& block) {
@@ -55,92 +31,50 @@ constexpr std::size_t square = model::moment_index({2, 0, 0}), square_of_pair = 
 
 // What a cell has of its own.
 void set_cell(const model::SpringLattice& body, const model::SurfaceCell& cell, std::size_t lane, CutBlock& block) {
-  static constexpr model::Moments whole{1};
-  const bool cut = cell.part >= 0;
   const double factor = body.factor_of(cell.cell);
-  block.coupled[lane] = factor;
-  block.whole[lane] = cut ? factor : 0;
-  block.part[lane] = cut ? factor / body.fraction_of(cell.cell) : 0;
-  const model::Moments& moments = cut ? body.moments[static_cast<std::size_t>(cell.part)] : whole;
+  block.whole[lane] = factor;
+  block.part[lane] = factor / body.fraction_of(cell.cell);
+  const model::Moments& moments = cell.moments;
   for (std::size_t m = 0; m < moments.size(); ++m) block.moments[m][lane] = moments[m];
   // Gradients are the terms x, y, z, yz, xz, xy of the strain; their squares are moments that nothing else needs.
-  if (cut)
-    for (std::size_t m = 0; m < 3; ++m) {
-      block.moments[square + m][lane] += steadying * moments[0] / 3;
-      block.moments[square_of_pair + m][lane] += steadying * moments[0] / 9;
-    }
-  for (std::size_t a = 0; a < 8; ++a) block.loose[a][lane] = cell.corners >> a & 1;
-}
-
-// The entry between the amplitudes p of u_i and q of u_j, where u of corner a is a product of signs.
-double between(const Eigen::MatrixXd& K, int i, int p, int j, int q) {
-  const auto sign = [](int a, int mode) {
-    return std::popcount(static_cast<unsigned>(~a & mode)) % 2 == 0 ? 1.0 : -1.0;
-  };
-  double sum = 0;
-  for (int a = 0; a < 8; ++a)
-    for (int b = 0; b < 8; ++b) sum += sign(a, p) * sign(b, q) * K(3 * a + i, 3 * b + j);
-  return sum;
-}
-
-// The constants of stiffness and turn that belong to unit constants of the cell kernel, d = 2; the others zero.
-std::array<CutConstants, cell_constants> make_basis(material::Kinematics kinematics) {
-  std::array<CutConstants, cell_constants> basis{};
-  for (std::size_t q = 0; q < basis.size(); ++q) {
-    CutConstants& k = basis[q];
-    const Eigen::MatrixXd K = cell_matrix(unit_springs[q], 2, material::Kinematics::least_squares);
-    const auto in_class = [&](int P, int i, int j) { return between(K, i, P ^ 1 << i, j, P ^ 1 << j); };
-    k.none = in_class(0, 0, 0);
-    k.none_cross = in_class(0, 0, 1);
-    k.one = in_class(1, 1, 1);
-    k.one_cross = in_class(1, 1, 2);
-    k.two = in_class(3, 0, 0);
-    k.two_cross = in_class(3, 0, 1);
-    k.two_third = in_class(3, 0, 2);
-    k.third = in_class(3, 2, 2);
-    k.three = in_class(7, 0, 0);
-    k.three_cross = in_class(7, 0, 1);
-    if (kinematics == material::Kinematics::least_squares) continue;
-    const Eigen::MatrixXd G = given_to_rotations(unit_springs[q], 2);
-    // Modes as bits: x 1, y 2, z 4.
-    k.turn_none = between(G, 0, 6, 1, 2);
-    k.turn_one = between(G, 0, 7, 1, 3);
-    k.turn_one_axis = between(G, 1, 4, 2, 5);
-    k.turn_two = between(G, 0, 5, 0, 2);
-    k.turn_two_third = -between(G, 0, 5, 2, 7);
-    k.turn_three = between(G, 0, 1, 1, 5);
+  for (std::size_t m = 0; m < 3; ++m) {
+    block.moments[square + m][lane] += steadying * moments[0] / 3;
+    block.moments[square_of_pair + m][lane] += steadying * moments[0] / 9;
   }
-  return basis;
 }
 
 }  // namespace
 
 CutConstants cut_constants_of(const material::Springs& springs, double d, material::Kinematics kinematics) {
-  using material::Kinematics;
-  static const std::array<CutConstants, cell_constants> turning = make_basis(Kinematics::rotational),
-                                                        without = make_basis(Kinematics::least_squares);
-  const auto& basis = kinematics == Kinematics::rotational ? turning : without;
-  const CellConstants own = springs_of_cell(springs, d);
+  const auto [en, et, fb, ft, bb, bt, v] = springs_of_cell(springs, d);
+  // The classes of cell_strip.cpp without the tie of strain. Amplitudes there are sums over the corners, 8 times those
+  // here. Rotations that make the energy smallest: none in P = 0 and in shear; in P = x + y + z A = (Z - Y)/2, and
+  // cyclic; in P = x A = (Z - Y)/(4 - 2 r), B = r A - Z, C = r A + Y with r = ft/(et + ft); in P = x + y a Z alone
+  // turns A - B.
   CutConstants k{};
-  for (std::size_t q = 0; q < basis.size(); ++q) {
-    // Moments are per rotation times half an edge.
-    const auto add = [&](double CutConstants::*member, double unit) { k.*member += unit * own[q] * basis[q].*member; };
-    for (const auto member :
-         {&CutConstants::none, &CutConstants::none_cross, &CutConstants::one, &CutConstants::one_cross,
-          &CutConstants::two, &CutConstants::two_cross, &CutConstants::two_third, &CutConstants::third,
-          &CutConstants::three, &CutConstants::three_cross})
-      add(member, 1);
-    for (const auto member : {&CutConstants::turn_none, &CutConstants::turn_one, &CutConstants::turn_one_axis,
-                              &CutConstants::turn_two, &CutConstants::turn_two_third, &CutConstants::turn_three})
-      add(member, 0.5 * d);
+  const double all = 64, axial = en + fb + ft, t = et + ft, g = ft + bt;
+  k.none = all * (axial + g + fb + bb + v);
+  k.none_cross = all * (fb + bb + v);
+  k.two = all * (0.5 * (t + g) + fb + bb);
+  if (kinematics == material::Kinematics::rotational) {
+    const double turned = t > 0 ? ft / (4 - 2 * ft / t) : 0, held = 0.5 * (et + g) + bt;
+    k.one = all * (axial - turned);
+    k.one_cross = all * (fb + turned);
+    k.third = all * (2 * et + en + bt + bb - (held > 0 ? (et + bt) * (et + bt) / held : 0));
+    k.three = all * (t + 2 * fb);
+    k.three_cross = all * (fb + 0.5 * t);
+  } else {
+    k.one = all * (axial + t);
+    k.one_cross = all * fb;
+    k.third = all * (2 * et + en + bt + bb);
+    k.three = all * 2 * (t + fb);
+    k.three_cross = all * fb;
   }
   const material::ElasticTensor C = material::lattice_tensor(springs, d);
   const double c11 = C.voigt[0][0], c12 = C.voigt[0][1], c44 = C.voigt[3][3];
   k.bulk = 4 * d * (c11 + 2 * c12) / 3;
   k.shear = 4 * d * (c11 - c12);
   k.cross = 4 * d * c44;
-  k.per_d = 1 / d;
-  k.tie = tie_of(c12, c44) * d * d * d;
   return k;
 }
 
@@ -150,40 +84,32 @@ const model::SurfaceCell* surface_cell(const model::SpringLattice& body, std::in
   return found != body.surface.end() && found->cell == cell ? &*found : nullptr;
 }
 
-CellMotion cut_forces(const model::SpringLattice& body, const model::SurfaceCell& cell, const CellMotion& motion) {
+std::array<Vec3, 8> cut_forces(const model::SpringLattice& body, const model::SurfaceCell& cell,
+                               const std::array<Vec3, 8>& displacement) {
   CutBlock block{};
-  const bool rotational = body.components() == 6;
   const material::Springs& springs = body.springs[body.cell.component(0)[cell.cell]];
   const CutConstants constants = cut_constants_of(springs, body.grid.d, body.kinematics);
   for (std::size_t lane = 0; lane < cut_lanes; ++lane) {
     set_constants(constants, lane, block);
     set_cell(body, cell, lane, block);
     for (std::size_t a = 0; a < 8; ++a)
-      for (std::size_t i = 0; i < 3; ++i) {
-        block.u[i][a][lane] = motion.displacement[a][i];
-        block.w[i][a][lane] = motion.rotation[a][i];
-      }
+      for (std::size_t i = 0; i < 3; ++i) block.u[i][a][lane] = displacement[a][i];
   }
-  cut_kernels().forces(block, rotational);
-  CellMotion force;
+  cut_kernels().forces(block);
+  std::array<Vec3, 8> force;
   for (std::size_t a = 0; a < 8; ++a)
-    for (std::size_t i = 0; i < 3; ++i) {
-      force.displacement[a][i] = block.u[i][a][0];
-      if (rotational) force.rotation[a][i] = block.w[i][a][0];
-    }
+    for (std::size_t i = 0; i < 3; ++i) force[a][i] = block.u[i][a][0];
   return force;
 }
 
 CutForces::CutForces(const model::SpringLattice& body)
-    : body_(body), rotational_(body.components() == 6), constants_(body.springs.size()) {
+    : body_(body), constants_(body.springs.size()), cells_(body.surface) {
   std::vector<char> known(body.springs.size(), 0);
   for (const model::SurfaceCell& cell : body.surface) {
     const std::uint16_t material = body.cell.component(0)[cell.cell];
     if (known[material] == 0)
       constants_[material] = cut_constants_of(body.springs[material], body.grid.d, body.kinematics);
     known[material] = 1;
-    // Whole cells differ by what ties strain and rotations alone.
-    if (rotational_ || cell.part >= 0) cells_.push_back(cell);
   }
   const Int3& owned = body.layout.owned();
   for (std::int64_t k = -1; k < owned[2]; ++k)
@@ -237,17 +163,17 @@ void CutForces::find_nodes() {
 }
 
 template <class T>
-void CutForces::update(const NodeValues<T>& u, const Rows& rows, double turn) {
+void CutForces::update(const NodeValues<T>& u, const Rows& rows) {
   if (rows.empty()) return;
   for (std::int64_t k = rows.k0; k < rows.k1; ++k)
     std::fill(force_.begin() + first_node_[node_row(rows.j0, k)],
               force_.begin() + first_node_[node_row(rows.j1 - 1, k) + 1], NodeForces{});
   for (std::int64_t k = rows.k0 - 1; k < rows.k1; ++k)
-    add_cells(u, turn, first_cell_[cell_row(rows.j0 - 1, k)], first_cell_[cell_row(rows.j1 - 1, k) + 1]);
+    add_cells(u, first_cell_[cell_row(rows.j0 - 1, k)], first_cell_[cell_row(rows.j1 - 1, k) + 1]);
 }
 
 template <class T>
-void CutForces::add_cells(const NodeValues<T>& u, double turn, std::size_t first, std::size_t last) {
+void CutForces::add_cells(const NodeValues<T>& u, std::size_t first, std::size_t last) {
   CutBlock block{};
   std::array<std::ptrdiff_t, 8> offset;
   for (int a = 0; a < 8; ++a) {
@@ -261,50 +187,43 @@ void CutForces::add_cells(const NodeValues<T>& u, double turn, std::size_t first
       set_constants(constants_[body_.cell.component(0)[cell.cell]], lane, block);
       set_cell(body_, cell, lane, block);
       const auto [i, j, k] = low_[number];
-      for (int c = 0; c < body_.components(); ++c) {
+      for (int c = 0; c < 3; ++c) {
         const T* const from = u.of(i, j, k) + c * u.component;
-        auto& to = c < 3 ? block.u[c] : block.w[c - 3];
-        for (std::size_t a = 0; a < 8; ++a) to[a][lane] = (c < 3 ? 1 : turn) * static_cast<double>(from[offset[a]]);
+        for (std::size_t a = 0; a < 8; ++a) block.u[c][a][lane] = static_cast<double>(from[offset[a]]);
       }
     }
-    cut_kernels().forces(block, rotational_);
+    cut_kernels().forces(block);
     for (std::size_t lane = 0; lane < cut_lanes && begin + lane < last; ++lane)
       for (std::size_t a = 0; a < 8; ++a) {
         NodeForces& force = force_[corners_[begin + lane][a]];
-        for (std::size_t i = 0; i < 3; ++i) {
-          force[i] += block.u[i][a][lane];
-          if (rotational_) force[3 + i] += block.w[i][a][lane];
-        }
+        for (std::size_t i = 0; i < 3; ++i) force[i] += block.u[i][a][lane];
       }
   }
 }
 
 template <class T>
-void CutForces::add(std::int64_t j, std::int64_t k, T* const* force, double scale, double turn) const {
-  const std::size_t row = node_row(j, k), components = static_cast<std::size_t>(body_.components());
+void CutForces::add(std::int64_t j, std::int64_t k, T* const* force, double scale) const {
+  const std::size_t row = node_row(j, k);
   for (std::size_t n = first_node_[row]; n < first_node_[row + 1]; ++n)
-    for (std::size_t c = 0; c < components; ++c)
-      force[c][place_[n]] += static_cast<T>((c < 3 ? scale : scale * turn) * force_[n][c]);
+    for (std::size_t c = 0; c < 3; ++c) force[c][place_[n]] += static_cast<T>(scale * force_[n][c]);
 }
 
 std::vector<CutForces::NodeBlock> CutForces::node_blocks() const {
   std::vector<NodeBlock> blocks(force_.size());
-  const int components = body_.components();
   // Component c of each corner in turn is 1 in its lane.
   CutBlock block{};
   for (std::size_t number = 0; number < cells_.size(); ++number)
-    for (int c = 0; c < components; ++c) {
+    for (int c = 0; c < 3; ++c) {
       for (std::size_t lane = 0; lane < cut_lanes; ++lane) {
         set_constants(constants_[body_.cell.component(0)[cells_[number].cell]], lane, block);
         set_cell(body_, cells_[number], lane, block);
-        for (int e = 0; e < components; ++e)
-          for (std::size_t a = 0; a < 8; ++a) (e < 3 ? block.u[e] : block.w[e - 3])[a][lane] = e == c && a == lane;
+        for (int e = 0; e < 3; ++e)
+          for (std::size_t a = 0; a < 8; ++a) block.u[e][a][lane] = e == c && a == lane;
       }
-      cut_kernels().forces(block, rotational_);
+      cut_kernels().forces(block);
       for (std::size_t a = 0; a < 8; ++a)
-        for (int e = 0; e < components; ++e)
-          blocks[corners_[number][a]].stiffness[static_cast<std::size_t>(6 * e + c)] -=
-              (e < 3 ? block.u[e] : block.w[e - 3])[a][a];
+        for (int e = 0; e < 3; ++e)
+          blocks[corners_[number][a]].stiffness[static_cast<std::size_t>(3 * e + c)] -= block.u[e][a][a];
     }
   blocks.pop_back();
   const Int3& owned = body_.layout.owned();
@@ -315,9 +234,9 @@ std::vector<CutForces::NodeBlock> CutForces::node_blocks() const {
   return blocks;
 }
 
-template void CutForces::update(const NodeValues<double>&, const Rows&, double);
-template void CutForces::update(const NodeValues<float>&, const Rows&, double);
-template void CutForces::add(std::int64_t, std::int64_t, double* const*, double, double) const;
-template void CutForces::add(std::int64_t, std::int64_t, float* const*, double, double) const;
+template void CutForces::update(const NodeValues<double>&, const Rows&);
+template void CutForces::update(const NodeValues<float>&, const Rows&);
+template void CutForces::add(std::int64_t, std::int64_t, double* const*, double) const;
+template void CutForces::add(std::int64_t, std::int64_t, float* const*, double) const;
 
 }  // namespace koshi::mechanics

@@ -7,6 +7,7 @@
 #include "lattice/halo.h"
 #include "mechanics/cell_table.h"
 #include "mechanics/cut_forces.h"
+#include "mechanics/strain_tie.h"
 
 namespace koshi::mechanics {
 namespace {
@@ -72,7 +73,8 @@ const double* ForceKernel::constants(std::int64_t i, std::int64_t j, std::int64_
       continue;
     std::memcpy(&materials_[at], material + c, few * sizeof *material);
     if (factor != nullptr) std::memcpy(&factors_[at], factor + c, few * sizeof *factor);
-    strip_kernels<double>().prepare(material + c, factor == nullptr ? nullptr : factor + c, table_.data(), few, to + c);
+    strip_kernels<double>().prepare(material + c, factor == nullptr ? nullptr : factor + c, table_.data(),
+                                    strain_is_tied(lattice_) ? 1 : 0, few, to + c);
   }
   return to;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "lattice/halo.h"
+#include "mechanics/cut_forces.h"
 
 namespace koshi::mechanics {
 namespace {
@@ -19,13 +20,11 @@ Int3 step_of(int neighbour) { return {neighbour % 3 - 1, neighbour / 3 % 3 - 1, 
 }  // namespace
 
 SurfaceStress::SurfaceStress(const model::SpringLattice& body, std::span<const std::int64_t> cells)
-    : body_(body), cells_(cells.begin(), cells.end()), part_(body.layout, 1), whole_(body.layout, 1) {
+    : body_(body), cells_(cells.begin(), cells.end()), whole_(body.layout, 1) {
   lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
     const std::uint16_t material = body.cell.component(0)[n];
-    if (material != 0) part_.component(0)[n] = static_cast<float>(body.fraction_of(n));
     if (body.fraction_of(n) == 1) whole_.component(0)[n] = material;
   });
-  body.halo->exchange(part_);
   body.halo->exchange(whole_);
 
   // Marks: 3 at the cells, 2 and 1 at those one and two cells away.
@@ -164,16 +163,10 @@ SurfaceStress::Value SurfaceStress::at(std::int64_t cell, const Vec3& from_centr
 }
 
 Vec3 SurfaceStress::middle_of_part(std::int64_t cell) const {
-  // Towards where more of the cells around is inside; of a part below a plane across that direction.
-  Vec3 inward{};
-  for (int b = 0; b < block; ++b) {
-    const double part = part_.component(0)[cell + offset(b)];
-    const Int3 step = step_of(b);
-    for (std::size_t a = 0; a < 3; ++a) inward[a] += part * static_cast<double>(step[a]);
-  }
-  const double length = norm(inward);
-  if (length == 0) return {};
-  return (0.5 * (1 - body_.fraction_of(cell)) / length) * inward;
+  const model::SurfaceCell* const cut = surface_cell(body_, cell);
+  if (cut == nullptr) return {};
+  const model::Moments& m = cut->moments;
+  return (0.5 / m[0]) * Vec3{m[1], m[2], m[3]};
 }
 
 }  // namespace koshi::mechanics

@@ -29,7 +29,7 @@ class SurfaceStress {
   /// At a place from the cell's centre, in spacings.
   Value at(std::int64_t cell, const Vec3& from_centre) const;
 
-  /// From the centre of a cell that a surface cuts to the middle of the part inside, about, in spacings.
+  /// From the centre of a cell that a surface cuts to the middle of the part inside, in spacings.
   Vec3 middle_of_part(std::int64_t cell) const;
 
  private:
@@ -57,8 +57,7 @@ class SurfaceStress {
 
   const model::SpringLattice& body_;
   std::vector<std::int64_t> cells_;
-  // With all ghosts, which the body has not: part of each cell inside; material of whole cells, else 0.
-  lattice::Field<float> part_;
+  // With all ghosts, which the body has not: material of whole cells, else 0.
   lattice::Field<std::uint16_t> whole_;
   std::vector<Near> near_;                           // whole cells of this rank and its ghosts, up to two cells away
   std::unordered_map<std::int64_t, Known> known_;    // by cell of near_

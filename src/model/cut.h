@@ -17,7 +17,7 @@ struct CellPart {
   std::uint16_t material = 0;  ///< the one that fills most of what is solid; 0: empty
   double fraction = 0;         ///< of the volume that is solid; 0 for an empty cell
   double left_out = 0;         ///< of a cell that is empty because less than `least` of it is solid
-  static constexpr double least = 0.02;
+  static constexpr double least = 0.002;
 };
 
 /// The body of a definition as layers of regions over its material or image, where the last region that holds a point

@@ -3,21 +3,10 @@
 #include <algorithm>
 
 #include "model/clip.h"
+#include "model/triangle_points.h"
 
 namespace koshi::model {
 namespace {
-
-// Points of a triangle, by the weights of its corners, and their share of the area: exact to the fourth degree
-// (D. A. Dunavant, doi:10.1002/nme.1620210612; the closed form of its digits). A point has weight `own` at one corner.
-struct TrianglePoints {
-  double own, other, share;
-};
-std::array<TrianglePoints, 2> triangle_points() {
-  const double ten = std::sqrt(10.0), root = std::sqrt(38 - 44 * std::sqrt(0.4));
-  const double from = std::sqrt(213125 - 53320 * ten);
-  const double a = (8 - ten + root) / 18, b = (8 - ten - root) / 18;
-  return {{{1 - 2 * a, a, (620 + from) / 3720}, {1 - 2 * b, b, (620 - from) / 3720}}};
-}
 
 void add_powers(const Vec3& x, double weight, Moments& sum) {
   const std::array<Vec3, 3> power{Vec3{1, 1, 1}, x, Vec3{x[0] * x[0], x[1] * x[1], x[2] * x[2]}};
@@ -30,14 +19,11 @@ void add_powers(const Vec3& x, double weight, Moments& sum) {
 
 // Integrals over a flat polygon.
 Moments over_face(const Polygon& polygon) {
-  static const std::array<TrianglePoints, 2> points = triangle_points();
   Moments sum{};
   for (std::size_t v = 2; v < polygon.size(); ++v) {
-    const std::array<Vec3, 3> corner{polygon[0], polygon[v - 1], polygon[v]};
-    const double area = 0.5 * norm(cross(corner[1] - corner[0], corner[2] - corner[0]));
-    const Vec3 all = corner[0] + corner[1] + corner[2];
-    for (const TrianglePoints& p : points)
-      for (const Vec3& one : corner) add_powers(p.other * all + (p.own - p.other) * one, p.share * area, sum);
+    const Vec3 &a = polygon[0], &b = polygon[v - 1], &c = polygon[v];
+    const double area = 0.5 * norm(cross(b - a, c - a));
+    for_each_point(a, b, c, [&](const Vec3& place, double share) { add_powers(place, share * area, sum); });
   }
   return sum;
 }

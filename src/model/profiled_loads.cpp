@@ -8,6 +8,7 @@
 
 #include "base/collective.h"
 #include "model/surface_loads.h"
+#include "model/triangle_points.h"
 
 namespace koshi::model {
 namespace {
@@ -23,13 +24,12 @@ ForceShares::ForceShares(const Model& model, const LoadDefinition& load, const s
   const lattice::Layout& layout = model.layout();
   for (const SurfacePiece& piece : pieces) {
     const Vec3 normal = (1 / norm(piece.area)) * piece.area;
-    // Triangles about the first corner, each with the middles of its sides as points: exact to second degree.
+    // Triangles about the first corner: exact for linear profiles.
     for (std::size_t v = 2; v < piece.corners.size(); ++v) {
-      const std::array<Vec3, 3> corner{piece.corners[0], piece.corners[v - 1], piece.corners[v]};
-      const double third = norm(cross(corner[1] - corner[0], corner[2] - corner[0])) / 6;
-      for (std::size_t side = 0; side < 3; ++side) {
-        const Vec3 place = 0.5 * (corner[side] + corner[(side + 1) % 3]);
-        const Vec3 force = force_on(third * normal, third, load);
+      const Vec3 &a = piece.corners[0], &b = piece.corners[v - 1], &c = piece.corners[v];
+      const double area = 0.5 * norm(cross(b - a, c - a));
+      for_each_point(a, b, c, [&](const Vec3& place, double part) {
+        const Vec3 force = force_on(part * area * normal, part * area, load);
         bool taken = false;
         for (const CornerShare& share : corner_shares(model.lattice.grid, piece.cell, place)) {
           const Int3 local = layout.local(share.node);
@@ -38,7 +38,7 @@ ForceShares::ForceShares(const Model& model, const LoadDefinition& load, const s
           taken = true;
         }
         if (taken) places_.push_back(place);
-      }
+      });
     }
   }
 }

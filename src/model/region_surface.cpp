@@ -38,6 +38,13 @@ std::vector<Polygon> sphere_surface(const RegionDefinition& region, double d) {
       if (row > 0) polygons.push_back({a, b, c});
       if (row + 1 < rows) polygons.push_back({a, c, e});
     }
+  // As far outside as inside: they enclose the ball's volume.
+  double volume = 0;
+  for (const Polygon& p : polygons)
+    volume += dot(p[0] - region.center, cross(p[1] - region.center, p[2] - region.center)) / 6;
+  const double ball = 4 * std::numbers::pi / 3 * std::pow(region.radius, 3), scale = std::cbrt(ball / volume);
+  for (Polygon& p : polygons)
+    for (Vec3& corner : p) corner = region.center + scale * (corner - region.center);
   return polygons;
 }
 
@@ -45,9 +52,11 @@ std::vector<Polygon> cylinder_surface(const RegionDefinition& region, double d) 
   const Vec3 along = region.end - region.start;
   const auto [u, v] = across((1 / norm(along)) * along);
   const int around = facets(region.radius, d);
+  // The facets leave the surface by as much outwards as inwards: they enclose the same volume.
+  const double angle = 2 * std::numbers::pi / around, radius = region.radius * std::sqrt(angle / std::sin(angle));
   const auto rim = [&, u = u, v = v](int side) {
-    const double phi = 2 * std::numbers::pi * (side % around) / around;
-    return region.radius * (std::cos(phi) * u + std::sin(phi) * v);
+    const double phi = angle * (side % around);
+    return radius * (std::cos(phi) * u + std::sin(phi) * v);
   };
   std::vector<Polygon> polygons;
   for (int side = 0; side < around; ++side) {

@@ -80,28 +80,9 @@ void make_fractions(SpringLattice& body, const std::function<float(const Int3&)>
 }
 
 void make_surface(SpringLattice& body, const std::function<Moments(const Int3&)>& moments_of) {
-  const auto cut = [&body](std::int64_t n) {
-    const double part = body.fraction_of(n);
-    return part > 0 && part < 1;
-  };
-  const auto corner = [&body](int a) { return body.layout.offset({a & 1, a >> 1 & 1, a >> 2}); };
-  lattice::Field<std::uint8_t> touched(body.layout, 1);
-  lattice::for_each_owned(body.layout, [&](auto, auto, auto, auto n) {
-    for (int a = 0; a < 8; ++a)
-      if (cut(n - corner(a))) touched.component(0)[n] = 1;
-  });
-  body.halo->exchange(touched);
   for_each_cell(body, [&](const Int3& cell, std::int64_t n) {
-    if (body.cell.component(0)[n] == 0) return;
-    SurfaceCell found{n, -1, 0};
-    for (int a = 0; a < 8; ++a)
-      if (touched.component(0)[n + corner(a)] != 0) found.corners |= static_cast<std::uint8_t>(1 << a);
-    if (found.corners == 0) return;
-    if (cut(n)) {
-      found.part = static_cast<std::int32_t>(body.moments.size());
-      body.moments.push_back(moments_of(cell));
-    }
-    body.surface.push_back(found);
+    const double part = body.fraction_of(n);
+    if (part > 0 && part < 1) body.surface.push_back({n, moments_of(cell)});
   });
 }
 

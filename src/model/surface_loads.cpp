@@ -5,6 +5,7 @@
 #include <map>
 
 #include "model/selection.h"
+#include "model/triangle_points.h"
 
 namespace koshi::model {
 namespace {
@@ -13,6 +14,22 @@ Vec3 force_on(const SurfacePiece& piece, const LoadDefinition& load, double whol
   if (load.pressure) return -*load.pressure * piece.area;
   const double size = norm(piece.area);
   return load.traction ? size * *load.traction : (size / whole_area) * *load.force;
+}
+
+// Means of the corners' shape functions over a piece; at its middle alone they would leave forces that no stress takes.
+std::array<CornerShare, 8> mean_shares(const lattice::Grid& grid, const SurfacePiece& piece) {
+  std::array<CornerShare, 8> mean = corner_shares(grid, piece.cell, piece.at);
+  for (CornerShare& share : mean) share.weight = 0;
+  const double whole = 2 * norm(piece.area);
+  for (std::size_t v = 2; v < piece.corners.size(); ++v) {
+    const Vec3 &a = piece.corners[0], &b = piece.corners[v - 1], &c = piece.corners[v];
+    const double part = norm(cross(b - a, c - a)) / whole;
+    for_each_point(a, b, c, [&](const Vec3& place, double share) {
+      const auto shares = corner_shares(grid, piece.cell, place);
+      for (std::size_t corner = 0; corner < 8; ++corner) mean[corner].weight += part * share * shares[corner].weight;
+    });
+  }
+  return mean;
 }
 
 }  // namespace
@@ -58,7 +75,7 @@ std::vector<NodeForce> surface_forces(const Model& model, const LoadDefinition& 
   std::map<std::int64_t, Vec3> forces;
   for (const SurfacePiece& piece : pieces) {
     const Vec3 force = force_on(piece, load, whole_area);
-    for (const CornerShare& share : corner_shares(model.lattice.grid, piece.cell, piece.at)) {
+    for (const CornerShare& share : mean_shares(model.lattice.grid, piece)) {
       const Int3 local = layout.local(share.node);
       if (!layout.owns(local)) continue;
       Vec3& sum = forces[layout.index(local)];

@@ -26,8 +26,8 @@ std::vector<SurfacePiece> selected_pieces(const Model& model, const Selection& s
                                           const std::string& title);
 
 /// Forces of a pressure, traction or total force on pieces of surface: each gives its force to the corners of its cell
-/// by their trilinear shape functions at its centroid, which keeps force and moment. Sorted by node; the same bits on
-/// any ranks.
+/// by the means of their trilinear shape functions over it, which keeps force and moment. Sorted by node; the same bits
+/// on any ranks.
 std::vector<NodeForce> surface_forces(const Model& model, const LoadDefinition& load,
                                       const std::vector<SurfacePiece>& pieces);
 

@@ -11,7 +11,7 @@ namespace koshi::model {
 inline constexpr double support_depth = 0.2;
 
 /// Thickness in spacings of the layer of material that gives way as a spring does which takes hold of a cell of which
-/// the part `fraction` is inside, so that the surface itself stays where it is (15.5).
+/// the part `fraction` is inside, so that the surface itself stays where it is (15.7).
 double support_layer(double fraction);
 
 /// The springs of all boundaries with a support, in cells that touch an owned node, in one order on any ranks: one for

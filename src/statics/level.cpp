@@ -80,7 +80,7 @@ Level::Level(LevelGrid grid, int components, RowField<float> constants, FixedNod
     : grid_(std::move(grid)),
       components_(components),
       fixed_(std::move(fixed)),
-      springs_(std::move(constants)),
+      springs_(std::move(constants), surface == nullptr),
       blocks_(springs_, fixed_, components,
               surface != nullptr ? surface->node_blocks() : std::vector<mechanics::CutForces::NodeBlock>{}),
       b(grid_.owned(), components),

@@ -10,6 +10,7 @@
 #include <string>
 #include <unordered_map>
 
+#include "mechanics/strain_tie.h"
 #include "statics/cell_springs.h"
 
 namespace koshi::statics {
@@ -33,10 +34,12 @@ using CellRows = std::array<std::int32_t, 4>;
 class BlockMaker {
  public:
   BlockMaker(const SpringRows& springs, int components) : springs_(springs), components_(components) {
-    const auto basis = cell_basis(components);
-    for (int q = 0; q < cell_constants; ++q)
+    auto basis = cell_basis(components);
+    for (int q = 0; q < cell_constants; ++q) {
+      if (!springs.tied()) basis[q] = mechanics::without_tie(basis[q]);
       for (int corner = 0; corner < 8; ++corner)
         corner_[q][corner] = basis[q].block(corner * components, corner * components, components, components);
+    }
   }
 
   bool is_empty(const CellRows& rows, std::int64_t i) const {
@@ -51,8 +54,8 @@ class BlockMaker {
     const std::uint8_t fixed = held.mask;
     Block K = Block::Zero(components_, components_);
     if (more != nullptr)
-      for (int p = 0; p < components_; ++p)
-        for (int q = 0; q < components_; ++q) K(p, q) = more->stiffness[static_cast<std::size_t>(6 * p + q)];
+      for (int p = 0; p < 3; ++p)
+        for (int q = 0; q < 3; ++q) K(p, q) = more->stiffness[static_cast<std::size_t>(3 * p + q)];
     for (int corner = 0; corner < 8; ++corner)
       for (int q = 0; q < cell_constants; ++q)
         if (const float k = constant(rows, i, corner, q); k != 0) K += k * corner_[q][corner];

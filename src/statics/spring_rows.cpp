@@ -34,8 +34,8 @@ Constants constants_at(const RowField<float>& constants, std::int64_t i, std::in
 }  // namespace
 
 // A row holds one vector before cell 0 and two beyond the last one, for the kernels.
-SpringRows::SpringRows(RowField<float> constants)
-    : owned_(constants.owned()), pitch_((owned_[0] + 3 * lead + lead - 1) / lead * lead) {
+SpringRows::SpringRows(RowField<float> constants, bool tied)
+    : owned_(constants.owned()), tied_(tied), pitch_((owned_[0] + 3 * lead + lead - 1) / lead * lead) {
   if (!collect_kinds(constants)) {
     of_kinds_.clear();
     collect(of_constants_, pitch_ * cell_constants, [&](std::int64_t j, std::int64_t k, float* row) {
@@ -98,9 +98,9 @@ void SpringRows::prepare(std::int32_t row, std::int64_t i, std::int64_t cells, f
   const auto& kernels = mechanics::strip_kernels<float>();
   const auto r = static_cast<std::size_t>(row);
   if (table_.empty())
-    kernels.prepare_rows(of_constants_[r].get() + lead + i, pitch_, cells, to);
+    kernels.prepare_rows(of_constants_[r].get() + lead + i, pitch_, tied_ ? 1 : 0, cells, to);
   else
-    kernels.prepare(of_kinds_[r].get() + lead + i, nullptr, table_.data(), cells, to);
+    kernels.prepare(of_kinds_[r].get() + lead + i, nullptr, table_.data(), tied_ ? 1 : 0, cells, to);
 }
 
 SpringRows::Span SpringRows::make_span(std::int32_t row) const {

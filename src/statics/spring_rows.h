@@ -16,8 +16,8 @@ namespace koshi::statics {
 class SpringRows {
  public:
   /// `constants`: a cell's constants at its lowest corner, ghosts included; their memory is free when the rows are
-  /// made.
-  explicit SpringRows(RowField<float> constants);
+  /// made. `tied`: whether the cells tie strain to other motions (mechanics/strain_tie.h).
+  explicit SpringRows(RowField<float> constants, bool tied = true);
 
   /// Number of the row; rows with the same number are equal.
   std::int32_t row(std::int64_t j, std::int64_t k) const {
@@ -37,6 +37,7 @@ class SpringRows {
   };
   Span span(std::int32_t row) const { return spans_[static_cast<std::size_t>(row)]; }
   const Int3& owned() const { return owned_; }
+  bool tied() const { return tied_; }
 
  private:
   static constexpr std::int64_t lead = 16;
@@ -51,6 +52,7 @@ class SpringRows {
   Span make_span(std::int32_t row) const;
 
   Int3 owned_;
+  bool tied_;
   std::ptrdiff_t pitch_;
   std::vector<std::int32_t> rows_;
   std::vector<float> table_;  ///< constants of each kind, that of empty cells first; empty: rows are constants
