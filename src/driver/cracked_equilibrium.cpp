@@ -14,22 +14,21 @@ constexpr int most_rounds = 100;
 
 }  // namespace
 
-CrackedEquilibrium::CrackedEquilibrium(model::Model& model, model::State& state, failure::ClosedFaces& faces, double t,
-                                       const statics::StaticOptions& options)
+CrackedEquilibrium::CrackedEquilibrium(model::Model& model, model::State& state, failure::CrackContact& contact,
+                                       double t, const statics::StaticOptions& options)
     : state_(state),
-      faces_(faces),
+      contact_(contact),
       work_(model.layout(), model.components()),
-      right_hand_side_(static_cast<std::size_t>(model.layout().owned_count() * model.components())),
-      solver_(model, t, work_, options) {
+      right_hand_side_(static_cast<std::size_t>(model.layout().owned_count() * model.components())) {
+  contact.make_levels([&] { solver_ = std::make_unique<statics::StaticSolver>(model, t, work_, options); });
   set_time(t);
-  solver_.equilibrium().add(faces.springs());
-  faces.levels_are_made();
+  solver_->equilibrium().add(contact.forces());
 }
 
 void CrackedEquilibrium::set_time(double t) {
-  solver_.equilibrium().set_time(t);
-  solver_.equilibrium().right_hand_side(right_hand_side_.data());
-  solver_.free().require_balance(right_hand_side_.data());
+  solver_->equilibrium().set_time(t);
+  solver_->equilibrium().right_hand_side(right_hand_side_.data());
+  solver_->free().require_balance(right_hand_side_.data());
 }
 
 void CrackedEquilibrium::find() {
@@ -41,14 +40,16 @@ void CrackedEquilibrium::find() {
                       "tolerance than {:.1e} or finer cells may help",
                       most_rounds, report_.relative_residual));
     solve();
-  } while (faces_.look());
+  } while (contact_.look());
+  // The solver left the forces of its last search direction.
+  contact_.forces().update(state_.displacement);
 }
 
 void CrackedEquilibrium::solve() {
-  if (faces_.ask_for_levels()) make_levels();
+  if (contact_.ask_for_levels()) make_levels();
   // It holds forces of prescribed motions, by springs that may be gone.
-  solver_.equilibrium().right_hand_side(right_hand_side_.data());
-  const statics::SolveReport report = solver_.improve(right_hand_side_.data(), state_.displacement);
+  solver_->equilibrium().right_hand_side(right_hand_side_.data());
+  const statics::SolveReport report = solver_->improve(right_hand_side_.data(), state_.displacement);
   if (++solves_ == 1) {
     report_ = report;
     return;
@@ -63,7 +64,7 @@ void CrackedEquilibrium::solve() {
 }
 
 void CrackedEquilibrium::make_levels() {
-  faces_.make_levels([this] { solver_.refresh(); });
+  contact_.make_levels([this] { solver_->refresh(); });
   ++hierarchies_;
   least_ = extra_ = 0;
 }

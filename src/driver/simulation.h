@@ -17,8 +17,7 @@
 #include "mechanics/stable_step.h"
 
 namespace koshi::failure {
-class ClosedFaces;
-class Cracking;
+class CrackContact;
 }  // namespace koshi::failure
 
 namespace koshi::driver {
@@ -107,9 +106,9 @@ class Simulation {
   Outcome run_load_steps(const Observer& observer, const std::vector<std::string>& petsc_options);
   double work_of_supports();
   // What both of these begin with, and measure.
-  failure::Cracking& restored_cracking();
+  failure::Fracturing& restored_cracks();
   statics::StaticOptions crack_options(const Observer& observer, const std::vector<std::string>& petsc_options) const;
-  mechanics::Measurement measure_cracked(const failure::ClosedFaces& faces);
+  mechanics::Measurement measure_cracked(const failure::CrackContact& contact);
   Outcome run_modes(const Observer& observer);
   Outcome run_explicit(const Observer& observer);
   double choose_step(const mechanics::StableStep& stable) const;

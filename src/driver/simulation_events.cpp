@@ -8,7 +8,7 @@
 #include "driver/cracked_equilibrium.h"
 #include "driver/simulation.h"
 #include "driver/stop_criteria.h"
-#include "failure/crack_events.h"
+#include "failure/equilibrium_law.h"
 
 namespace koshi::driver {
 namespace {
@@ -77,11 +77,10 @@ double Simulation::work_of_supports() {
   return sum.value();
 }
 
-failure::Cracking& Simulation::restored_cracking() {
-  // Bonds break in motion only, as the check of the definition has it.
-  auto& cracking = dynamic_cast<failure::Cracking&>(*fracturing());
-  cracking.restore();
-  return cracking;
+failure::Fracturing& Simulation::restored_cracks() {
+  failure::Fracturing& cracks = *fracturing();
+  cracks.restore();
+  return cracks;
 }
 
 statics::StaticOptions Simulation::crack_options(const Observer& observer,
@@ -95,11 +94,11 @@ statics::StaticOptions Simulation::crack_options(const Observer& observer,
   return options;
 }
 
-mechanics::Measurement Simulation::measure_cracked(const failure::ClosedFaces& faces) {
+mechanics::Measurement Simulation::measure_cracked(const failure::CrackContact& contact) {
   mechanics::Measurement measurement = meter_->measure(*state_, 0);
-  const double pressed = faces.energy();
-  measurement.balance.elastic_energy += pressed;
-  measurement.balance.leapfrog_energy += pressed;
+  const double carried = contact.energy();
+  measurement.balance.elastic_energy += carried;
+  measurement.balance.leapfrog_energy += carried;
   measurement.balance.cracked = fracturing()->energy_taken();
   return measurement;
 }
@@ -109,19 +108,19 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
   const statics::StaticOptions options = crack_options(observer, petsc_options);
 
   // The state is that of the unit load between events, when equilibria are sought, and of the event's load at them.
-  failure::Cracking& cracking = restored_cracking();
-  failure::CrackEvents events(cracking, *model_, *state_);
+  failure::Fracturing& cracks = restored_cracks();
+  const auto events = failure::follow_events(cracks, *model_, *state_);
   const double end = statics::end_time(definition);
   LoadFactor loads(*model_, end);
-  CrackedEquilibrium equilibrium(*model_, *state_, events.faces(), end, options);
+  CrackedEquilibrium equilibrium(*model_, *state_, events->contact(), end, options);
 
   Outcome outcome;
   CrackPath& path = outcome.path.emplace();
   PathWork balance;
   const auto sample = [&](double factor) {
-    outcome.measurement = measure_cracked(events.faces());
+    outcome.measurement = measure_cracked(events->contact());
     mechanics::Balance& measured = outcome.measurement.balance;
-    if (factor > 0) balance.add(factor, measured.elastic_energy, work_of_supports(), events.faces().bend());
+    if (factor > 0) balance.add(factor, measured.elastic_energy, work_of_supports(), events->contact().bend());
     measured.load_factor = factor;
     measured.given = balance.work();
     state_->time = static_cast<double>(path.events);
@@ -132,15 +131,16 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
 
   // One broken layer leaves the whole its trace of stiffness times the layers there are.
   const Int3& cells = model_->lattice.grid.cells;
-  const double parted = 1.5 * failure::Cracking::trace * static_cast<double>(std::max({cells[0], cells[1], cells[2]}));
+  const double parted =
+      1.5 * failure::Fracturing::trace * static_cast<double>(std::max({cells[0], cells[1], cells[2]}));
 
   double factor = 1, peak = 0;
   for (bool changed = true;;) {
     if (changed) equilibrium.find();
-    const double next = events.next();
+    const double next = events->next();
     const bool over = !std::isfinite(next);
     if (!over) factor = next;
-    events.go(factor);
+    events->go(factor);
     loads.set(factor);
     ++path.events;
     sample(factor);
@@ -160,19 +160,19 @@ Outcome Simulation::run_events(const Observer& observer, const std::vector<std::
     const bool done = !path.reason.empty();
     const std::optional<int> every = definition.output.every_events;
     if (observer.fields && (done || (every && path.events % *every == 0))) observer.fields(*state_, 0);
-    path.cracked = cracking.count(0);
+    path.cracked = cracks.count_cells(0);
     if (observer.progress)
       observer.progress(
           static_cast<double>(path.events) / definition.analysis.events,
           fmt::format("event {}, load factor {:.4g}, {} cells cracked", path.events, factor, path.cracked));
     if (done) break;
-    changed = events.soften();
-    events.unload();
+    changed = events->soften();
+    events->unload();
     loads.set(1);
   }
   outcome.solution = equilibrium.report();
   path.hierarchies = equilibrium.hierarchies();
-  path.parted = cracking.count(1);
+  path.parted = cracks.count_cells(1);
   outcome.converged = true;
   state_->time = end;
   return outcome;

@@ -7,15 +7,15 @@
 #include "driver/simulation.h"
 #include "driver/step_work.h"
 #include "driver/stop_criteria.h"
-#include "failure/crack_steps.h"
+#include "failure/equilibrium_law.h"
 
 namespace koshi::driver {
 namespace {
 
-// A step has come to its end when no cell is off its strength by more than this part of it.
+// A step has come to its end when nothing is off its limit by more than this part of it.
 constexpr double close = 1e-3;
-// It takes some tens of equilibria where many cells crack; hundreds mean that the force falls faster than a step can
-// follow.
+// It takes some tens of equilibria where many cells crack, or bonds break; hundreds mean that the force falls faster
+// than a step can follow.
 constexpr int most_equilibria = 1000;
 
 }  // namespace
@@ -26,16 +26,16 @@ Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<s
   const double duration = statics::end_time(definition);
   const statics::StaticOptions options = crack_options(observer, petsc_options);
 
-  failure::Cracking& cracking = restored_cracking();
+  failure::Fracturing& fracture = restored_cracks();
   state_->displacement.zero();
-  failure::CrackSteps cracks(cracking, *model_, *state_);
-  CrackedEquilibrium equilibrium(*model_, *state_, cracks.faces(), duration, options);
+  const auto cracks = failure::follow_steps(fracture, *model_, *state_);
+  CrackedEquilibrium equilibrium(*model_, *state_, cracks->contact(), duration, options);
   StepWork work(*model_, *meter_);
 
   Outcome outcome;
   CrackPath& path = outcome.path.emplace();
   const auto sample = [&](double given) {
-    outcome.measurement = measure_cracked(cracks.faces());
+    outcome.measurement = measure_cracked(cracks->contact());
     outcome.measurement.balance.given = given;
     if (observer.history) observer.history(outcome.measurement, *state_);
   };
@@ -45,31 +45,31 @@ Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<s
   sample(0);
   for (bool done = false; !done;) {
     const double before = state_->time, t = duration * static_cast<double>(path.steps + 1) / count;
-    cracks.begin();
+    cracks->begin();
     equilibrium.set_time(t);
     state_->time = t;
     // Equilibrium and damage in turn, until they go together.
     int equilibria = 0;
     for (;;) {
       equilibrium.find();
-      const double off = cracks.look();
-      if (off <= close || cracks.fly()) break;
+      const double off = cracks->look();
+      if (off <= close || cracks->fly()) break;
       if (++equilibria > most_equilibria)
         throw RunError(fmt::format(
-            "step {} of {} (t = {:.6g} s) finds no end: after {} equilibria a cell is still off its strength by {:.1e} "
-            "of it; take smaller steps (more analysis.steps), or follow cracks event by event (without steps)",
+            "step {} of {} (t = {:.6g} s) finds no end: after {} equilibria a cell or a bond is still off its limit by "
+            "{:.1e} of it; take smaller steps (more analysis.steps), or follow cracks event by event (without steps)",
             path.steps + 1, count, t, equilibria, off));
-      cracks.take();
+      cracks->take();
     }
     ++path.steps;
-    if (cracks.fly()) {
-      cracks.undo();
+    if (cracks->fly()) {
+      cracks->undo();
       state_->time = before;
       path.reason = fmt::format("the body has parted in step {}", path.steps);
       done = true;
     } else {
-      cracks.end();
-      sample(work.add(*state_, cracks.bend()));
+      cracks->end();
+      sample(work.add(*state_, cracks->contact().bend()));
       outcome.stopped = observer.poll && observer.poll(*state_);
       outcome.stop_reason = reason_to_stop(*model_, *state_, outcome.measurement);
       path.reason = !outcome.stop_reason.empty() ? outcome.stop_reason
@@ -78,7 +78,7 @@ Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<s
                                                  : "";
       done = !path.reason.empty();
     }
-    path.cracked = cracking.count(0);
+    path.cracked = fracture.count_cells(0);
     const double every = definition.output.every.value_or(0);
     const auto samples = [every](double time) { return std::floor(time / every + 1e-9); };
     if (observer.fields && (done || (every > 0 && samples(t) > samples(before)))) observer.fields(*state_, 0);
@@ -90,7 +90,7 @@ Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<s
   outcome.solution = equilibrium.report();
   path.equilibria = equilibrium.solves();
   path.hierarchies = equilibrium.hierarchies();
-  path.parted = cracking.count(1);
+  path.parted = fracture.count_cells(1);
   return outcome;
 }
 

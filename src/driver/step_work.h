@@ -14,7 +14,7 @@ class StepWork {
   StepWork(const model::Model& model, mechanics::Meter& meter);
 
   /// The state is the equilibrium at the end of a step; what it took from loads and supports since the start [J]
-  /// (collective). `bend`: ClosedFaces::bend() of the step.
+  /// (collective). `bend`: CrackContact::bend() of the step.
   double add(model::State& state, double bend);
 
  private:

@@ -17,19 +17,6 @@ using mechanics::cell_bonds;
 
 std::uint16_t bits(double of_field) { return static_cast<std::uint16_t>(of_field); }
 
-// Whether the bonds that are left hold the eight corners of a cell together.
-bool holds_together(std::uint32_t whole) {
-  unsigned reached = 1;
-  for (unsigned before = 0; before != reached;) {
-    before = reached;
-    for (std::size_t b = 0; b < cell_bonds.size(); ++b) {
-      const unsigned ends = 1U << cell_bonds[b].a | 1U << cell_bonds[b].b;
-      if ((whole >> b & 1) != 0 && (reached & ends) != 0) reached |= ends;
-    }
-  }
-  return reached == 0xFF;
-}
-
 }  // namespace
 
 BondBreaking::BondBreaking(model::Model& model, model::State& state)
@@ -108,28 +95,43 @@ void BondBreaking::follow(double dt) {
   for (std::int64_t k = 0; k < owned[2]; ++k)
     for (std::int64_t j = 0; j < owned[1]; ++j)
       if (breakable_[static_cast<std::size_t>(j + owned[1] * k)] != 0) follow_row(j, k);
-  if (model_.lattice.halo->active()) {
-    model_.lattice.halo->exchange(state_.bonds);
-    take_over_ghosts();
-  }
+  exchange();
   for (std::size_t c = 0; c < before; ++c)
     state_.crack.component(dissipated)[cracked_[c]] += closing_loss(cracked_[c], dt);
   // In the order of cells in memory, whichever bond broke first.
   if (cracked_.size() != before) std::sort(cracked_.begin(), cracked_.end());
   if (news_) {
     for (const std::int64_t n : cracked_)
-      if (const std::uint32_t fresh = broken_now(n) & ~broken_before(n); fresh != 0) break_in_cell(n, fresh, dt);
+      if (const std::uint32_t bonds = fresh(n); bonds != 0) break_in_cell(n, energy_lost(n, bonds, dt));
     make_lattice_follow();
   }
   add_up_forces();
 }
 
+// Bonds that other ranks have broken.
+void BondBreaking::exchange() {
+  if (!model_.lattice.halo->active()) return;
+  model_.lattice.halo->exchange(state_.bonds);
+  take_over_ghosts();
+}
+
+void BondBreaking::look_at_row(std::int64_t j, std::int64_t k) {
+  const lattice::Layout& layout = model_.layout();
+  bond_rows_({state_.displacement.component(0) + layout.index(0, j, k), state_.displacement.stride()}, slots_.data(),
+             slots_.size(), layout.owned()[0], stretch_.data(), std::isinf(least_.shear) ? nullptr : shear_.data());
+}
+
+double BondBreaking::bound(std::int64_t i) const {
+  const auto at = static_cast<std::size_t>(i);
+  const double sheared = std::isinf(least_.shear) ? 0 : std::sqrt(shear_[at]) / least_.shear;
+  return std::max(stretch_[at] / least_.stretch, sheared) / margin;
+}
+
 void BondBreaking::follow_row(std::int64_t j, std::int64_t k) {
   const lattice::Layout& layout = model_.layout();
+  look_at_row(j, k);
   const std::int64_t first = layout.index(0, j, k);
-  const bool shears = least_.shear < std::numeric_limits<double>::infinity();
-  bond_rows_({state_.displacement.component(0) + first, state_.displacement.stride()}, slots_.data(), slots_.size(),
-             layout.owned()[0], stretch_.data(), shears ? shear_.data() : nullptr);
+  const bool shears = !std::isinf(least_.shear);
   const double stretch = margin * least_.stretch, square = margin * least_.shear * least_.shear;
   for (std::int64_t i = 0; i < layout.owned()[0]; ++i) {
     const auto at = static_cast<std::size_t>(i);
@@ -162,32 +164,38 @@ BondLimits BondBreaking::limits_of(std::int64_t n, int slot) const {
   return result;
 }
 
-// The forward bonds of an owned node.
-void BondBreaking::look_at(std::int64_t n) {
+BondBreaking::Strained BondBreaking::strained(std::int64_t n, int slot) const {
+  if ((bits(state_.bonds.component(0)[n]) >> slot & 1) != 0) return {};
+  const BondLimits limits = limits_of(n, slot);
+  if (std::isinf(limits.stretch)) return {};
   const auto three = [this](std::int64_t node, int first) {
     Vec3 v;
     for (int c = 0; c < 3; ++c) v[static_cast<std::size_t>(c)] = state_.displacement.component(first + c)[node];
     return v;
   };
-  double& broken_bits = state_.bonds.component(0)[n];
-  double& sheared_bits = state_.bonds.component(1)[n];
+  const auto& s = lattice::slots[static_cast<std::size_t>(slot)].s;
+  const double d = model_.lattice.grid.d;
+  const Vec3 D{-d * s[0], -d * s[1], -d * s[2]};
+  const std::int64_t other = n + model_.layout().offset(s);
+  const Vec3 w = 0.5 * (three(n, 3) + three(other, 3));
+  const Vec3 r = mechanics::relative_displacement(three(n, 0), three(other, 0), w, D);
+  const double stretch = dot(r, D) / dot(D, D);
+  return {std::max(stretch, 0.0) / limits.stretch, norm(r - stretch * D) / norm(D) / limits.shear};
+}
+
+// The forward bonds of an owned node.
+void BondBreaking::look_at(std::int64_t n) {
   for (int slot = 0; slot < lattice::slot_count; ++slot) {
-    if ((bits(broken_bits) >> slot & 1) != 0) continue;
-    const BondLimits limits = limits_of(n, slot);
-    if (std::isinf(limits.stretch)) continue;
-    const auto& s = lattice::slots[static_cast<std::size_t>(slot)].s;
-    const double d = model_.lattice.grid.d;
-    const Vec3 D{-d * s[0], -d * s[1], -d * s[2]};
-    const std::int64_t other = n + model_.layout().offset(s);
-    const Vec3 w = 0.5 * (three(n, 3) + three(other, 3));
-    const Vec3 r = mechanics::relative_displacement(three(n, 0), three(other, 0), w, D);
-    const double stretch = dot(r, D) / dot(D, D);
-    const Break way = broken(limits, stretch, norm(r - stretch * D) / norm(D));
-    if (way == Break::none) continue;
-    broken_bits += 1U << slot;
-    if (way == Break::by_shear) sheared_bits += 1U << slot;
-    mark_cells(n, slot);
+    const Strained over = strained(n, slot);
+    const Break way = broken({1, 1}, over.stretch, over.shear);
+    if (way != Break::none) break_bond(n, slot, way == Break::by_shear);
   }
+}
+
+void BondBreaking::break_bond(std::int64_t n, int slot, bool by_shear) {
+  state_.bonds.component(0)[n] += 1U << slot;
+  if (by_shear) state_.bonds.component(1)[n] += 1U << slot;
+  mark_cells(n, slot);
 }
 
 // Bonds of ghost nodes that their owners have broken.
@@ -210,6 +218,18 @@ void BondBreaking::take_over_ghosts() {
       look(first - 1);
       look(first + owned[0]);
     }
+}
+
+bool BondBreaking::holds_together(std::uint32_t bonds) {
+  unsigned reached = 1;
+  for (unsigned before = 0; before != reached;) {
+    before = reached;
+    for (std::size_t b = 0; b < cell_bonds.size(); ++b) {
+      const unsigned ends = 1U << cell_bonds[b].a | 1U << cell_bonds[b].b;
+      if ((bonds >> b & 1) != 0 && (reached & ends) != 0) reached |= ends;
+    }
+  }
+  return reached == 0xFF;
 }
 
 // The cells around a bond that has broken join those with broken bonds.
@@ -262,9 +282,10 @@ std::uint32_t BondBreaking::broken_before(std::int64_t n) const {
   return of_cell([&](std::int64_t node) { return model_.lattice.broken.component(0)[node]; }, n);
 }
 
-void BondBreaking::break_in_cell(std::int64_t n, std::uint32_t fresh, double dt) {
-  state_.crack.component(dissipated)[n] += energy_lost(n, fresh, dt);
-  if (broken_before(n) == 0) state_.crack.component(shear)[n] = (broken_now(n, 1) & fresh) != 0 ? 1 : 0;
+// The cell's fresh bonds have taken this energy.
+void BondBreaking::break_in_cell(std::int64_t n, double energy) {
+  state_.crack.component(dissipated)[n] += energy;
+  if (broken_before(n) == 0) state_.crack.component(shear)[n] = (broken_now(n, 1) & fresh(n)) != 0 ? 1 : 0;
   const double was = state_.crack.component(damage)[n];
   describe(n);
   if (was < model::parted && state_.crack.component(damage)[n] >= model::parted)

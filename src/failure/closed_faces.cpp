@@ -1,6 +1,7 @@
 #include "failure/closed_faces.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "base/exact_sum.h"
 
@@ -106,7 +107,13 @@ double ClosedFaces::bend() const {
   return sum.value();
 }
 
-void ClosedFaces::levels_are_made() {
+void ClosedFaces::make_levels(const std::function<void()>& make) {
+  std::vector<float> factors;
+  for (const mechanics::FaceSpring& spring : springs_.springs())
+    factors.push_back(std::exchange(factor(spring.cell), cracking_.whole_.component(0)[spring.cell]));
+  make();
+  std::size_t next = 0;
+  for (const mechanics::FaceSpring& spring : springs_.springs()) factor(spring.cell) = factors[next++];
   soft_.clear();
   for (const std::int64_t n : cracking_.cracked_)
     if (!is_closed(n) && factor(n) < soft * cracking_.whole_.component(0)[n]) soft_.push_back(n);

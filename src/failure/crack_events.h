@@ -10,27 +10,18 @@ namespace koshi::failure {
 
 /// Softens the cells of a model one group at a time, in steps of their stiffness. As in Cracking, whose cells these
 /// are, every rank follows all cells that touch its nodes. Displacements are those of the unit load, times a factor.
-class CrackEvents {
+class CrackEvents : public EventLaw {
  public:
-  /// `cracking` is that of the model and the state, made or restored before. Closed cracks carry what faces() say from
-  /// then on, and cells that have cracked through keep a trace of their springs, which holds the nodes on them.
+  /// `cracking` is that of the model and the state, made or restored before. Closed cracks carry what contact() says
+  /// from then on, and cells that have cracked through keep a trace of their springs, which holds the nodes on them.
   CrackEvents(Cracking& cracking, model::Model& model, model::State& state);
 
-  /// The factor on the state's displacements (ghosts up to date) at which something happens next (collective):
-  /// infinite when nothing does, or only where whole cells would be strained by more than 1.
-  double next();
-
-  /// Goes there: the displacements, ghosts too, and what the last cells have lost on the way (collective).
-  void go(double factor);
-  /// Softens the cells that are at their strength now, with those within a thousandth of it; false where a crack has
-  /// only come to the end of its energy (collective). The state's time counts as the moment of cells that crack
-  /// through.
-  bool soften();
-  /// Goes back to the unit load, for the next solve (collective).
-  void unload();
-
-  /// Which cracks are closed; to be looked at after each solve.
-  ClosedFaces& faces() { return faces_; }
+  double next() override;
+  void go(double factor) override;
+  /// False where a crack has only come to the end of its energy.
+  bool soften() override;
+  void unload() override;
+  ClosedFaces& contact() override { return faces_; }
 
  private:
   /// A cell that lost springs at the last event: the energy of that is known at the next one.

@@ -12,33 +12,20 @@ namespace koshi::failure {
 
 /// Damage of a model's cells from one equilibrium to the next, sought together with the second. As in Cracking, whose
 /// cells these are, every rank follows all cells that touch its nodes.
-class CrackSteps {
+class CrackSteps : public StepLaw {
  public:
-  /// `cracking` is that of the model and the state, made or restored before. Closed cracks carry what faces() say from
-  /// then on, and cells that have cracked through keep a trace of their springs, which holds the nodes on them.
+  /// `cracking` is that of the model and the state, made or restored before. Closed cracks carry what contact() says
+  /// from then on, and cells that have cracked through keep a trace of their springs, which holds the nodes on them.
   CrackSteps(Cracking& cracking, model::Model& model, model::State& state);
 
-  /// A step starts from the present equilibrium (ghosts of the displacements up to date). The displacements go on as in
-  /// the last step, as a guess of the next equilibrium.
-  void begin();
-  /// Finds the damage that the state's displacements ask for (ghosts up to date), beginning with that before the step:
-  /// by how much of its strength a cell is off at most, with the damage it has now. Cells have the new damage after
-  /// take(). (collective)
-  double look();
-  void take();
-  /// Whether a cell that has cracked through has been strained to more than twice its length at the last look: the
-  /// pieces fly off (collective).
-  bool fly() const { return fly_; }
-  /// The step ends with the present equilibrium: what cracks have taken on the way. The state's time counts as the
-  /// moment of cells that have cracked through (collective).
-  void end();
-  /// As ClosedFaces::bend(), from begin() to end().
-  double bend() const { return faces_.bend(); }
-  /// Goes back to where the step began, displacements and cracks.
-  void undo();
-
-  /// Which cracks are closed; to be looked at after each solve.
-  ClosedFaces& faces() { return faces_; }
+  void begin() override;
+  /// Finds the damage that the displacements ask for, beginning with that before the step.
+  double look() override;
+  void take() override;
+  bool fly() const override { return fly_; }
+  void end() override;
+  void undo() override;
+  ClosedFaces& contact() override { return faces_; }
 
  private:
   struct Followed {

@@ -121,15 +121,6 @@ void Cracking::weaken(std::int64_t n, double of_damage) {
   limit_.component(0)[n] = std::numeric_limits<float>::infinity();
 }
 
-std::int64_t Cracking::count(double at_least) const {
-  std::int64_t number = 0;
-  lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) {
-    const Crack crack = load(n);
-    number += crack.kappa > 0 && crack.damage >= at_least ? 1 : 0;
-  });
-  return model_.communicator.sum(number);
-}
-
 void Cracking::follow(double dt) {
   const Int3& owned = model_.layout().owned();
   reach_.spend(dt);

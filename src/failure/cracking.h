@@ -20,9 +20,6 @@ namespace koshi::failure {
 /// that touch its nodes, so that the bits do not depend on the ranks and no cracks are exchanged.
 class Cracking : public Fracturing {
  public:
-  /// Stiffness that broken cells keep in equilibrium, over that of whole ones. Nodes between them hang on it.
-  static constexpr double trace = 1e-6;
-
   /// The model must have a material that can crack, and its cells their factors without cracks; it has those with the
   /// cracks of the state from then on.
   Cracking(model::Model& model, model::State& state);
@@ -33,9 +30,6 @@ class Cracking : public Fracturing {
   void look_again() override { reach_.forget(); }
   void add_forces(std::int64_t j, std::int64_t k, double* const* force) const override { carried_.add(j, k, force); }
   void lay_forces() override;
-
-  /// Cells that have cracked with at least this damage (collective).
-  std::int64_t count(double at_least) const;
 
   /// Raises the damage of owned cells to `wanted` where that is above what they have, with cracks of unit normal n;
   /// cells that have cracked keep their normal (collective). Throws InputError for a value outside 0 ... 1, or above 0

@@ -4,6 +4,15 @@
 
 namespace koshi::failure {
 
+std::int64_t Fracturing::count_cells(double at_least) const {
+  std::int64_t number = 0;
+  lattice::for_each_owned(model_.layout(), [&](auto, auto, auto, auto n) {
+    const bool cracked = state_.crack.component(kappa)[n] != 0;
+    number += cracked && state_.crack.component(damage)[n] >= at_least ? 1 : 0;
+  });
+  return model_.communicator.sum(number);
+}
+
 double Fracturing::energy_taken() const {
   ExactSum sum;
   lattice::for_each_owned(model_.layout(),

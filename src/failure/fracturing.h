@@ -27,6 +27,9 @@ class Fracturing {
   static_assert(offset + 1 == model::crack_components && moment == model::crack_moment &&
                 offset == model::crack_offset);
 
+  /// Stiffness that broken cells and bonds keep in equilibrium, over that of whole ones. Nodes between them hang on it.
+  static constexpr double trace = 1e-6;
+
   virtual ~Fracturing() = default;
 
   /// What follows from the state: at the start, and after it was changed by others (collective).
@@ -49,6 +52,9 @@ class Fracturing {
 
   /// To be called before State::face_force is read: a law may leave it behind from step to step.
   virtual void lay_forces() {}
+
+  /// Cells that have cracked with at least this damage (collective).
+  std::int64_t count_cells(double at_least) const;
 
   /// Energy [J] that cracks and the friction of their faces have taken so far (collective).
   double energy_taken() const;

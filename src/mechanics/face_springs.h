@@ -5,6 +5,7 @@
 
 #include "koshi/spring_lattice.h"
 #include "koshi/vector3.h"
+#include "mechanics/added_forces.h"
 #include "mechanics/corner_forces.h"
 
 namespace koshi::mechanics {
@@ -17,7 +18,7 @@ struct FaceSpring {
 };
 
 /// A set of such springs. One that every rank has of a cell whose corners it owns gives the same forces on any ranks.
-class FaceSprings {
+class FaceSprings : public AddedForces {
  public:
   /// `force`: memory for three components, zero; the forces of the last update() from then on. Both outlive this.
   FaceSprings(const model::SpringLattice& body, lattice::Field<double>& force);
@@ -26,10 +27,9 @@ class FaceSprings {
   void set(std::vector<FaceSpring> springs);
   const std::vector<FaceSpring>& springs() const { return springs_; }
 
-  /// Forces at displacements whose ghosts are up to date.
-  void update(const lattice::Field<double>& u);
-  /// Adds the forces on row (j, k) of owned nodes, force[c] pointing to node i = 0.
-  void add(std::int64_t j, std::int64_t k, double* const* force) const { forces_.add(j, k, force); }
+  bool empty() const override { return springs_.empty(); }
+  void update(const lattice::Field<double>& u) override;
+  void add(std::int64_t j, std::int64_t k, double* const* force) const override { forces_.add(j, k, force); }
 
  private:
   void clear();

@@ -79,11 +79,6 @@ void check_bonds(const Checker& check, const std::string& path, const MaterialDe
                     "all bonds broken it would still pull. law = \"bonds\" needs calibration = \"isotropic\", cell "
                     "= \"cube-II\" or \"cube-III\" and a Poisson's ratio of at most 0.2; or take law = \"cohesive\"",
                     kappa));
-  if (definition.analysis.type == AnalysisDefinition::Type::statics)
-    check.fail(
-        path + ".law",
-        "a static analysis breaks no bonds: that is followed in motion; take analysis.type = \"quasi-static\" or "
-        "\"dynamic\", or law = \"cohesive\"");
   for (const MaterialDefinition& other : definition.materials)
     if (other.cracks() && other.fracture->law != material.fracture->law)
       check.fail(path + ".law",

@@ -69,10 +69,10 @@ void Equilibrium::to_field(const double* x, lattice::Field<double>& field) const
 
 template <class F>
 void Equilibrium::for_each_row(const lattice::Field<double>& u, F&& use) {
-  const bool faces = faces_ != nullptr && !faces_->springs().empty();
-  if (faces) faces_->update(u);
+  const bool more = added_ != nullptr && !added_->empty();
+  if (more) added_->update(u);
   kernel_.for_each_row(u, [&](std::int64_t j, std::int64_t k, double* const* force) {
-    if (faces) faces_->add(j, k, force);
+    if (more) added_->add(j, k, force);
     use(j, k, force);
   });
 }

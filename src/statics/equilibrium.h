@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "koshi/model.h"
+#include "mechanics/added_forces.h"
 #include "mechanics/cell_stress.h"
-#include "mechanics/face_springs.h"
 #include "mechanics/force_kernel.h"
 #include "statics/fixed_nodes.h"
 
@@ -38,8 +38,8 @@ class Equilibrium {
   /// The unknowns of a field of displacements, zero where they are prescribed.
   void gather(const lattice::Field<double>& displacement, double* x) const;
 
-  /// Springs across cells that count beside those of the lattice from now on; they must outlive this.
-  void add(mechanics::FaceSprings& faces) { faces_ = &faces; }
+  /// What counts beside the springs of the lattice from now on; it must outlive this.
+  void add(mechanics::AddedForces& added) { added_ = &added; }
 
   const FixedNodes& fixed() const { return fixed_; }
 
@@ -62,7 +62,7 @@ class Equilibrium {
   double t_, half_d_;
   lattice::Field<double>& work_;
   mechanics::ForceKernel kernel_;
-  mechanics::FaceSprings* faces_ = nullptr;
+  mechanics::AddedForces* added_ = nullptr;
   FixedNodes fixed_;
   struct Prescribed {
     std::int64_t unknown, node;

@@ -134,7 +134,6 @@ TEST_F(BondRuns, WhatBondsCannotCarryIsRefused) {
       {"--set material.rock.poissons_ratio=0.3", "a Poisson's ratio of at most 0.2; or take law = \"cohesive\""},
       {"--set lattice.cell=cube-I", "which belongs to no bond"},
       {"--set lattice.springs=plain --set lattice.calibration=paper", "plain springs belong to none"},
-      {"--set analysis='{type=\"static\"}' --set output='{}'", "a static analysis breaks no bonds"},
       {"--set analysis='{type=\"modes\"}' --set output='{}'", "type = \"modes\" follows no cracks"},
       {"--set material.stone.fracture='{tensile_strength=3e6, fracture_energy=20}'",
        "bonds of material \"rock\" break and cells of \"stone\" crack; materials that crack must have one law"},
