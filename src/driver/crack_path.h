@@ -16,6 +16,7 @@ struct CrackPath {
   double peak_load_factor = 0;   ///< on loads and motions at that event
   std::int64_t hierarchies = 1;  ///< times that the solver's levels were made
   std::string reason;            ///< why it ended, in words
+  std::string endless;           ///< in steps: of the next one, which has found no end, and what to do; empty: none
 };
 
 }  // namespace koshi::driver

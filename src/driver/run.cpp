@@ -141,6 +141,7 @@ Outcome run_simulation(Simulation& simulation, const RunOptions& options, const 
 }
 
 void require_rest(const model::Model& model, const Outcome& outcome, const std::string& remark) {
+  if (outcome.path && !outcome.path->endless.empty()) throw RunError(outcome.path->endless + remark);
   if (outcome.converged || !outcome.stop_reason.empty()) return;
   throw RunError(fmt::format(
       "not at rest after {} steps: unbalanced-force ratio {:.2e}, tolerance {:.2e}; give more time "

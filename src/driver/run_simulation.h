@@ -10,7 +10,8 @@ namespace koshi::driver {
 /// `breathe` and `progress` are called too.
 Outcome run_simulation(Simulation& simulation, const RunOptions& options, const Observer& observer = {});
 
-/// Throws RunError when a quasi-static run did not come to rest; `remark` ends its text.
+/// Throws RunError when a quasi-static run did not come to rest, or a step of the loads found no end; `remark` ends its
+/// text.
 void require_rest(const model::Model& model, const Outcome& outcome, const std::string& remark = "");
 
 }  // namespace koshi::driver

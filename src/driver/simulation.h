@@ -87,6 +87,9 @@ class Simulation {
 
   /// Throws InputError where no material can crack.
   void check_cracks() const;
+  /// Of load steps with cracks: a step that has not come to its end after so many equilibria has none. 1000 unless
+  /// told.
+  void limit_equilibria(int most) { most_equilibria_ = most; }
   /// Raises the damage of cells, failure::Cracking::damage_cells(). Throws InputError also where no material can crack,
   /// and for a normal of zero.
   void damage_cells(const lattice::Field<double>& wanted, const Vec3& normal);
@@ -128,7 +131,8 @@ class Simulation {
   std::unique_ptr<failure::Fracturing> fracturing_;
   std::optional<mechanics::StableStep> stable_;        // once an explicit step was asked for
   std::unique_ptr<dynamics::ExplicitSolver> stepper_;  // of `step`; none during and after a run
-  double lag_ = 0;                                     // step whose middle the state's velocities belong to [s]
+  int most_equilibria_ = 1000;  // some tens in steps where many cells crack; hundreds where the force falls too fast
+  double lag_ = 0;              // step whose middle the state's velocities belong to [s]
 };
 
 }  // namespace koshi::driver

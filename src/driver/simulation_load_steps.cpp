@@ -14,9 +14,6 @@ namespace {
 
 // A step has come to its end when nothing is off its limit by more than this part of it.
 constexpr double close = 1e-3;
-// It takes some tens of equilibria where many cells crack, or bonds break; hundreds mean that the force falls faster
-// than a step can follow.
-constexpr int most_equilibria = 1000;
 
 }  // namespace
 
@@ -52,20 +49,25 @@ Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<s
     int equilibria = 0;
     for (;;) {
       equilibrium.find();
+      ++equilibria;
       const double off = cracks->look();
       if (off <= close || cracks->fly()) break;
-      if (++equilibria > most_equilibria)
-        throw RunError(fmt::format(
+      if (equilibria == most_equilibria_) {
+        path.endless = fmt::format(
             "step {} of {} (t = {:.6g} s) finds no end: after {} equilibria a cell or a bond is still off its limit by "
             "{:.1e} of it; take smaller steps (more analysis.steps), or follow cracks event by event (without steps)",
-            path.steps + 1, count, t, equilibria, off));
+            path.steps + 1, count, t, equilibria, off);
+        break;
+      }
       cracks->take();
     }
-    ++path.steps;
-    if (cracks->fly()) {
+    const bool endless = !path.endless.empty();
+    if (!endless) ++path.steps;
+    if (endless || cracks->fly()) {
+      // The run ends where the step before has.
       cracks->undo();
       state_->time = before;
-      path.reason = fmt::format("the body has parted in step {}", path.steps);
+      path.reason = endless ? "a step without an end" : fmt::format("the body has parted in step {}", path.steps);
       done = true;
     } else {
       cracks->end();
@@ -83,9 +85,9 @@ Outcome Simulation::run_load_steps(const Observer& observer, const std::vector<s
     const auto samples = [every](double time) { return std::floor(time / every + 1e-9); };
     if (observer.fields && (done || (every > 0 && samples(t) > samples(before)))) observer.fields(*state_, 0);
     if (observer.progress)
-      observer.progress(static_cast<double>(path.steps) / count,
-                        fmt::format("step {} of {}, {} equilibria, {} cells cracked", path.steps, count, equilibria + 1,
-                                    path.cracked));
+      observer.progress(
+          static_cast<double>(path.steps) / count,
+          fmt::format("step {} of {}, {} equilibria, {} cells cracked", path.steps, count, equilibria, path.cracked));
   }
   outcome.solution = equilibrium.report();
   path.equilibria = equilibrium.solves();

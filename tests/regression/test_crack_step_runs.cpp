@@ -5,8 +5,10 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "driver/run_simulation.h"
 #include "io/field_reader.h"
 #include "io/history_reader.h"
+#include "koshi/input.h"
 #include "support/program_test.h"
 
 namespace koshi {
@@ -110,6 +112,44 @@ TEST_F(CrackStepRuns, EndWhenAsked) {
   EXPECT_LT(force.back(), 0.5 * *std::ranges::max_element(force));
   EXPECT_GE(force[force.size() - 2], 0.5 * *std::ranges::max_element(force));
   EXPECT_THAT(summary("half").at("analysis").at("stop_reason").get<std::string>(), HasSubstr("is below 0.5"));
+}
+
+// A step that finds no end is an error, and the run ends where the step before has: with its rows, its fields and its
+// state. Steps in which nothing cracks take one equilibrium, others some six: three are soon too few.
+TEST_F(CrackStepRuns, KeepWhatCameBeforeAStepWithoutEnd) {
+  const std::vector<std::string> slow{R"(boundary.pull.history=[["0 s", 0], ["1 s", 0.1]])"};
+  ASSERT_EQ(koshi("run plate.toml --quiet --out whole --set '" + slow[0] + "'").code, 0);
+  driver::Simulation simulation(io::read_case((directory_ / "plate.toml").string(), slow), Communicator::world());
+  simulation.limit_equilibria(3);
+  driver::RunOptions options;
+  options.directory = directory_ / "cut";
+  options.quiet = true;
+  const driver::Outcome outcome = driver::run_simulation(simulation, options);
+  const auto cut = history("cut"), whole = history("whole");
+  const std::size_t rows = cut[0].values.size();
+  ASSERT_GT(rows, 5u);
+  ASSERT_LT(rows, 40u);
+  ASSERT_EQ(cut.size(), whole.size());
+  for (std::size_t column = 0; column < cut.size(); ++column)
+    for (std::size_t row = 0; row < rows; ++row)
+      EXPECT_EQ(cut[column].values[row], whole[column].values[row]) << cut[column].name << row;
+  const auto elastic = std::ranges::find(cut, "elastic energy", &io::HistoryColumn::name);
+  ASSERT_NE(elastic, cut.end());
+  EXPECT_NEAR(simulation.measure().balance.elastic_energy / elastic->values.back(), 1, 1e-6);
+  EXPECT_DOUBLE_EQ(io::list_samples(directory_ / "cut").back().time, cut[0].values.back());
+  const auto analysis = summary("cut").at("analysis");
+  EXPECT_EQ(analysis.at("reason"), "a step without an end");
+  EXPECT_EQ(analysis.at("steps"), rows - 1);
+  EXPECT_EQ(analysis.at("time"), cut[0].values.back());
+  try {
+    driver::require_rest(simulation.model(), outcome, "; the rest");
+    ADD_FAILURE() << "not an error";
+  } catch (const RunError& error) {
+    EXPECT_THAT(error.what(), HasSubstr("step " + std::to_string(rows) + " of 40 (t = "));
+    EXPECT_THAT(error.what(), HasSubstr("finds no end: after 3 equilibria a cell or a bond is still off its limit by"));
+    EXPECT_THAT(error.what(), HasSubstr("take smaller steps (more analysis.steps), or follow cracks event by event"));
+    EXPECT_THAT(error.what(), HasSubstr("; the rest"));
+  }
 }
 
 TEST_F(CrackStepRuns, WrongStepsAreRefusedInWords) {
