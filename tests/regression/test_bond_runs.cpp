@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/history_reader.h"
-#include "support/program_test.h"
+#include "support/cracking_plate.h"
 
 namespace koshi {
 namespace {
@@ -16,45 +16,11 @@ using testing::HasSubstr;
 namespace fs = std::filesystem;
 
 // A plate with a stone that is pulled until a crack runs from its notch, and pressed together again.
-const std::string plate = R"([lattice]
-spacing = "5 mm"
-calibration = "isotropic"
-[body]
-size = ["60 mm", "45 mm", "10 mm"]
-material = "rock"
-[material.rock]
-youngs_modulus = "30 GPa"
-poissons_ratio = 0.2
-density = "2400 kg/m^3"
-fracture = { law = "bonds", fracture_energy = "20 J/m^2", strength_scatter = { modulus = 10, seed = 3 } }
-[material.stone]
-youngs_modulus = "60 GPa"
-poissons_ratio = 0.25
-density = "2700 kg/m^3"
-[[region]]
-shape = "sphere"
-center = ["40 mm", "30 mm", "5 mm"]
-radius = "8 mm"
-material = "stone"
-[[region]]
-shape = "box"
-min = ["30 mm", "0 mm", "0 mm"]
-max = ["35 mm", "15 mm", "10 mm"]
-material = "void"
-[[boundary]]
-name = "wall"
-face = "x-min"
-fix = ["x", "y", "z", "rx", "ry", "rz"]
-[[boundary]]
-name = "pull"
-face = "x-max"
-displacement = { x = "40 um", y = "5 um" }
-history = [["0 s", 0], ["100 us", 1], ["160 us", -0.3]]
-[analysis]
-type = "dynamic"
-duration = "160 us"
-time_step = "0.32 us"
-damping = { kind = "local", factor = 0.2 }
+const std::string plate =
+    test::notched_plate("rock",
+                        R"(law = "bonds", fracture_energy = "20 J/m^2", strength_scatter = { modulus = 10, seed = 3 })",
+                        "calibration = \"isotropic\"\n") +
+    test::pulled_with_a_stone(R"(x = "40 um", y = "5 um")") + R"(time_step = "0.32 us"
 [output]
 fields = ["displacement", "stress", "damage"]
 crack_surface = true

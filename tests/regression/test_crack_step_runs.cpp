@@ -9,7 +9,7 @@
 #include "io/field_reader.h"
 #include "io/history_reader.h"
 #include "koshi/input.h"
-#include "support/program_test.h"
+#include "support/cracking_plate.h"
 
 namespace koshi {
 namespace {
@@ -18,23 +18,10 @@ using test::Ended;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string plate = R"(lattice = { spacing = "5 mm" }
-body = { size = ["60 mm", "40 mm", "10 mm"], material = "concrete" }
-[material.concrete]
-youngs_modulus = "30 GPa"
-poissons_ratio = 0.2
-density = "2400 kg/m^3"
-fracture = { tensile_strength = "3 MPa", fracture_energy = "100 J/m^2", softening = "linear" }
-[[region]]
-shape = "box"
-min = ["30 mm", "0 mm", "0 mm"]
-max = ["35 mm", "10 mm", "10 mm"]
-material = "void"
-[[boundary]]
-name = "wall"
-face = "x-min"
-fix = ["x", "y", "z", "rx", "ry", "rz"]
-[[boundary]]
+const std::string plate =
+    test::notched_plate("concrete",
+                        R"(tensile_strength = "3 MPa", fracture_energy = "100 J/m^2", softening = "linear")") +
+    R"([[boundary]]
 name = "pull"
 face = "x-max"
 fix = ["y", "z", "rx", "ry", "rz"]

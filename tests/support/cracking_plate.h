@@ -11,27 +11,19 @@
 
 namespace koshi::test {
 
-/// A plate that is pulled until a crack runs from its notch, and pressed again: open and closed faces, friction,
-/// damping, two materials.
-inline const std::string cracking_plate = R"([lattice]
-spacing = "5 mm"
-[body]
+/// A plate of 60 mm x 45 mm x 10 mm in cells of 5 mm, with a notch over a third of its height, held at its left end:
+/// the first tables of a case. `material` is its name; `fracture` and `lattice` are written into their tables.
+inline std::string notched_plate(const std::string& material, const std::string& fracture,
+                                 const std::string& lattice = "") {
+  return "[lattice]\nspacing = \"5 mm\"\n" + lattice + R"([body]
 size = ["60 mm", "45 mm", "10 mm"]
-material = "concrete"
-[material.concrete]
+material = ")" +
+         material + "\"\n[material." + material + R"(]
 youngs_modulus = "30 GPa"
 poissons_ratio = 0.2
 density = "2400 kg/m^3"
-fracture = { tensile_strength = "3 MPa", fracture_energy = "20 J/m^2", cohesion = "8 MPa", friction_angle = "40 deg", residual_friction_angle = "30 deg" }
-[material.stone]
-youngs_modulus = "60 GPa"
-poissons_ratio = 0.25
-density = "2700 kg/m^3"
-[[region]]
-shape = "sphere"
-center = ["40 mm", "30 mm", "5 mm"]
-radius = "8 mm"
-material = "stone"
+fracture = { )" +
+         fracture + R"( }
 [[region]]
 shape = "box"
 min = ["30 mm", "0 mm", "0 mm"]
@@ -41,16 +33,39 @@ material = "void"
 name = "wall"
 face = "x-min"
 fix = ["x", "y", "z", "rx", "ry", "rz"]
+)";
+}
+
+/// Another material in it, which does not crack; a motion of its right end, out and back; and damping.
+inline std::string pulled_with_a_stone(const std::string& displacement) {
+  return R"([material.stone]
+youngs_modulus = "60 GPa"
+poissons_ratio = 0.25
+density = "2700 kg/m^3"
+[[region]]
+shape = "sphere"
+center = ["40 mm", "30 mm", "5 mm"]
+radius = "8 mm"
+material = "stone"
 [[boundary]]
 name = "pull"
 face = "x-max"
-displacement = { x = "20 um", y = "5 um" }
+displacement = { )" +
+         displacement + R"( }
 history = [["0 s", 0], ["100 us", 1], ["160 us", -0.3]]
 [analysis]
 type = "dynamic"
 duration = "160 us"
 damping = { kind = "local", factor = 0.2 }
-[output]
+)";
+}
+
+/// A plate that is pulled until a crack runs from its notch, and pressed again: open and closed faces, friction,
+/// damping, two materials.
+inline const std::string cracking_plate =
+    notched_plate("concrete", R"(tensile_strength = "3 MPa", fracture_energy = "20 J/m^2", cohesion = "8 MPa", )"
+                              R"(friction_angle = "40 deg", residual_friction_angle = "30 deg")") +
+    pulled_with_a_stone(R"(x = "20 um", y = "5 um")") + R"([output]
 fields = ["displacement", "damage"]
 history_every = "8 us"
 checkpoint_every = "80 us"
