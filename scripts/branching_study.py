@@ -58,14 +58,19 @@ def branches(places, d):
     return most, first
 
 
-def fastest(places, times):
-    """Largest speed of the foremost tip over 5 us [m/s]."""
-    window = 5e-6
+def fastest(places, times, window=5e-6):
+    """Largest speed of the foremost tip over a time [s]: [m/s]."""
     speeds = []
     for end in np.arange(times.min() + 1.001 * window, times.max(), 0.5e-6):
         tips = [places[times <= t, 0].max() for t in (end - window, end)]
         speeds.append((tips[1] - tips[0]) / window)
     return max(speeds)
+
+
+def mean_speed(places, times, x):
+    """Of the foremost tip from its start up to a place [m]: [m/s]."""
+    there = times[places[:, 0] >= x].min()
+    return (x - places[times == times.min(), 0].max()) / (there - times.min())
 
 
 def main():
@@ -74,6 +79,7 @@ def main():
     koshi = arguments.parse_args().koshi.resolve()
     print("| spacing [mm] | strength [MPa] | pull [MPa] | cracks side by side | first branch at x [mm] | fastest [m/s] | over c_R |")
     print("|---|---|---|---|---|---|---|")
+    measured = []
     for d, strength, pull, duration in RUNS:
         places, times = cracked(koshi, d, strength, pull, duration)
         row = f"| {d} | {strength} | {pull} |"
@@ -82,7 +88,11 @@ def main():
             continue
         count, first = branches(places, d * 1e-3)
         speed = fastest(places, times)
+        if first is not None:
+            windows = ", ".join(f"{fastest(places, times, 1e-6 * w) / C_R:.2f}" for w in (2, 5, 10))
+            measured.append(f"{d} mm, {pull} MPa: over 2, 5, 10 us {windows} c_R; mean up to the branch {mean_speed(places, times, first) / C_R:.2f}")
         print(f"{row} {count} | {'' if first is None else f'{1e3 * first:.0f}'} | {speed:.0f} | {speed / C_R:.2f} |")
+    print("\n".join(measured))
 
 
 if __name__ == "__main__":
