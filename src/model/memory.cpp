@@ -155,8 +155,12 @@ double predicted_memory(const Definition& definition, int ranks) {
   else if (definition.cracks())
     bytes += 8 * (crack_components + 3 + 2) + 8 + 36 + (factors ? 0 : 4);
   if (statics) {
-    // The operand and the right-hand side of many solves, beside displacements and velocities.
-    if (definition.cracks()) bytes += 16 * components;
+    // The operand and the right-hand side of many solves, beside displacements and velocities, and reactions. In steps
+    // the displacements of the step before and, with the forces there, those for the work; of bonds the first of these
+    // event by event too, the bonds of the step before, and factors for the levels.
+    const bool steps = definition.analysis.steps.has_value();
+    if (definition.cracks()) bytes += 24 * components + (steps ? 24 * components : 0);
+    if (definition.breaks_bonds()) bytes += (steps ? 16 : 8 * components) + (factors ? 0 : 4);
     // The solver's memory is free again when fields are written.
     const double solver = solver_bytes(grid, components, ranks) + mixed_bytes(definition, grid, components);
     return bytes * static_cast<double>(whole.size()) + std::max(solver, sample);
