@@ -45,6 +45,14 @@ struct GrainBoundaryDefinition {
   bool operator==(const GrainBoundaryDefinition&) const = default;
 };
 
+/// A material for the cells of a coarsened image that hold two solids.
+struct Mixture {
+  std::uint16_t material = 0;         ///< its index in the cells
+  std::array<std::uint16_t, 2> of{};  ///< the two solids, by their indices
+  double share = 0;                   ///< of the second of them, 0 < share < 1
+  bool operator==(const Mixture&) const = default;
+};
+
 /// [body]
 struct BodyDefinition {
   /// What becomes of a cell that a surface cuts: whole or empty by its centre, or the part of it inside.
@@ -59,10 +67,12 @@ struct BodyDefinition {
   std::optional<ScanDefinition> scan;          ///< how values become cells; unset: each value is a cell
   /// Material of each cell, x fastest, 0 = empty, k = materials[k - 1]; filled from the image, or by a program.
   std::vector<std::uint16_t> cells;
+  std::vector<Mixture> mixtures{};  ///< among the materials; filled from the image
   std::string factor;  ///< file of factors 0 ... 1 on the cells' stiffness, in the formats of an image; empty: all 1
   /// Factor of each cell, x fastest; empty: all 1; filled from the file, or by a program. Shared springs only.
   std::vector<float> factors;
-  /// Share of its material's density in each cell, x fastest, 0 ... 1; empty: all 1; filled from the image.
+  /// Density of each cell over that of its material, x fastest; empty: all 1; filled from the image. Above 1 by little,
+  /// where a mixture holds more of the heavier solid than its share in sixteenths.
   std::vector<float> density_shares;
   std::string strength;          ///< file of factors on the strength of the cells, in the same formats; empty: all 1
   std::vector<float> strengths;  ///< of each cell, x fastest, > 0; empty: all 1; filled from the file, or by a program

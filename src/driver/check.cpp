@@ -66,6 +66,16 @@ std::string bonds_part(const model::Model& model) {
   return text;
 }
 
+// Cells whose material the coarsened image made of two.
+std::int64_t mixed_cells(const model::Model& model) {
+  std::vector<bool> mixed(model.materials.size());
+  for (const model::Mixture& mixture : model.definition.body.mixtures) mixed[mixture.material] = true;
+  std::int64_t count = 0;
+  lattice::for_each_owned(model.layout(),
+                          [&](auto, auto, auto, auto n) { count += mixed[model.lattice.cell.component(0)[n]]; });
+  return model.communicator.sum(count);
+}
+
 std::string modes_part(const model::Model& model) {
   const model::AnalysisDefinition& analysis = model.definition.analysis;
   const std::string free = modes::free_motions(model, analysis);
@@ -89,6 +99,9 @@ std::string check(const model::Definition& definition, const Communicator& commu
     text += fmt::format("volume        {:.9g} m^3, {} cells are cut; slivers of {:.3g} m^3 are left out\n",
                         model.volume(), model.cut->count, model.cut->left_out * cell);
   }
+  if (const auto& mixtures = model.definition.body.mixtures; !mixtures.empty())
+    text += fmt::format("mixtures      {} materials for {} cells that hold two solids\n", mixtures.size(),
+                        mixed_cells(model));
   const double body = model::predicted_memory(model.definition, communicator.size());
   text += fmt::format("prescribed    {} components\nmemory        {:.3g} GB, of it {:.3g} GB for the body\n",
                       model.motion_count, (libraries + body) / 1e9, body / 1e9);
@@ -98,7 +111,7 @@ std::string check(const model::Definition& definition, const Communicator& commu
   for (const ScatterReport& report : scatter_reports(model))
     text += "scatter       " + escaped(driver::text(report)) + "\n";
   for (const std::string& warning : found) text += "warning       " + escaped(warning) + "\n";
-  for (std::size_t m = 1; m < model.lattice.springs.size(); ++m)
+  for (std::size_t m = 1; m <= definition.materials.size(); ++m)
     text += fmt::format("\n# material {}\n", escaped(definition.materials[m - 1].name)) +
             calibration::calibration_report(
                 calibration::examine(definition.lattice, model.materials[m], model.lattice.springs[m]));

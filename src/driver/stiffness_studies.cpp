@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 
+#include "io/cell_mixtures.h"
 #include "koshi/error.h"
 #include "model/regions.h"
 
@@ -45,6 +46,7 @@ model::Definition without_cells(const model::Model& model, const Int3& cells, do
   model::BodyDefinition body;
   body.origin = definition.body.origin;
   body.periodic = definition.body.periodic;
+  body.mixtures = definition.body.mixtures;
   for (std::size_t a = 0; a < 3; ++a) body.size[a] = d * static_cast<double>(cells[a]);
   definition.body = body;
   definition.regions.clear();
@@ -66,24 +68,41 @@ model::Definition coarser(const model::Model& model) {
                       grid.cells[0], grid.cells[1], grid.cells[2]));
   }
   model::Definition definition = without_cells(model, cells, 2 * grid.d);
+  // Mixtures of the finer cells are taken apart, and made anew.
+  std::map<std::uint16_t, model::Mixture> finer;
+  for (const model::Mixture& mixture : definition.body.mixtures) finer[mixture.material] = mixture;
+  definition.materials.resize(definition.materials.size() - definition.body.mixtures.size());
+  io::CellMixtures mixtures(definition);
   const Cells fine(model);
   std::map<std::uint16_t, int> count;
   for_each_cell(cells, [&](const Int3& coarse) {
     count.clear();
-    float factor = 0, share = 0;
+    float factor = 0;
+    double weight = 0;
     for_each_cell({2, 2, 2}, [&](const Int3& corner) {
       const Int3 cell{2 * coarse[0] + corner[0], 2 * coarse[1] + corner[1], 2 * coarse[2] + corner[2]};
-      if (fine.material(cell) == 0) return;
-      ++count[fine.material(cell)];
+      const std::uint16_t material = fine.material(cell);
+      if (material == 0) return;
+      if (const auto found = finer.find(material); found == finer.end()) {
+        count[material] += 16;
+      } else {
+        const model::Mixture& mixture = found->second;
+        const auto second = static_cast<int>(std::lround(16 * mixture.share));
+        count[mixture.of[0]] += 16 - second;
+        count[mixture.of[1]] += second;
+      }
       factor += fine.factor(cell) / 8;
-      share += fine.share(cell) / 8;
+      weight += fine.share(cell) * model.materials[material].density / 8;
     });
-    const auto most =
-        std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    definition.body.cells.push_back(count.empty() ? 0 : most->first);
+    const std::uint16_t material = count.empty() ? std::uint16_t{0} : mixtures.material_of(count);
+    definition.body.cells.push_back(material);
     definition.body.factors.push_back(count.empty() ? 1 : std::min(factor, 1.0F));
-    definition.body.density_shares.push_back(count.empty() ? 1 : std::min(share, 1.0F));
+    definition.body.density_shares.push_back(count.empty() ? 1.0F
+                                                           : static_cast<float>(weight / mixtures.density(material)));
   });
+  const std::vector<model::MaterialDefinition> mixed = mixtures.materials(definition.body.cells, cells);
+  definition.body.mixtures = mixtures.mixtures();
+  definition.materials.insert(definition.materials.end(), mixed.begin(), mixed.end());
   return definition;
 }
 

@@ -10,6 +10,7 @@
 #include "homogenize/bounds.h"
 #include "homogenize/cells.h"
 #include "homogenize/held.h"
+#include "homogenize/mixed_phases.h"
 #include "homogenize/phase_sums.h"
 #include "homogenize/structure.h"
 #include "koshi/error.h"
@@ -191,8 +192,10 @@ void require_loadable_cell(const model::Definition& definition, Boundary boundar
                      "set springs = \"shared\"");
 }
 
-Effective effective_stiffness(const model::Model& model, const statics::StaticOptions& options, Boundary boundary) {
-  require_loadable_cell(model.definition, boundary);
+namespace {
+
+// All of it, with mixtures as phases of their own.
+Effective solve_cases(const model::Model& model, const statics::StaticOptions& options, Boundary boundary) {
   assert(boundary == Boundary::periodic || model.lattice.grid.periodic == (std::array<bool, 3>{}));
   Effective effective;
   effective.boundary = boundary;
@@ -230,6 +233,15 @@ Effective effective_stiffness(const model::Model& model, const statics::StaticOp
         if (i != j && (i >= 3 || j >= 3)) whole[i][j] = 0;
   effective.stiffness.voigt = symmetric(whole, difference, effective.asymmetry);
   effective.means = means.means();
+  return effective;
+}
+
+}  // namespace
+
+Effective effective_stiffness(const model::Model& model, const statics::StaticOptions& options, Boundary boundary) {
+  require_loadable_cell(model.definition, boundary);
+  Effective effective = solve_cases(model, options, boundary);
+  split_mixtures(model.definition, effective);
   return effective;
 }
 

@@ -93,6 +93,8 @@ CellImage read_factor_image(const std::filesystem::path& file) { return read_ima
 void set_cells(const CellImage& image, model::Definition& definition) {
   const model::Checker check(definition);
   model::BodyDefinition& body = definition.body;
+  // Mixtures of an image read before are made anew.
+  definition.materials.resize(definition.materials.size() - body.mixtures.size());
   ScanCells scan = cells_of(kept_part(image, definition), definition);
 
   // The image decides the spacing where it is asked to.
@@ -118,6 +120,8 @@ void set_cells(const CellImage& image, model::Definition& definition) {
                     "is {:.9g} x {:.9g} x {:.9g} m; leave size out",
                     cells[0], cells[1], cells[2], size[0], size[1], size[2], body.size[0], body.size[1], body.size[2]));
   body.cells = std::move(scan.material);
+  body.mixtures = std::move(scan.mixtures);
+  definition.materials.insert(definition.materials.end(), scan.mixture_materials.begin(), scan.mixture_materials.end());
   body.factors = std::move(scan.factor);
   body.density_shares = std::move(scan.density_share);
 }

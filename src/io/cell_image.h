@@ -27,9 +27,9 @@ CellImage read_cell_image(const std::filesystem::path& file, const std::optional
 /// The same with whole numbers or fractions, as factors have.
 CellImage read_factor_image(const std::filesystem::path& file);
 
-/// Sets body.cells by body.scan and body.image_materials, factors and shares of density where cells are partly filled,
-/// the spacing where it is that of the image, and body.size if it is unset. Errors: InputError at the image, its
-/// materials, scan or size.
+/// Sets body.cells by body.scan and body.image_materials, mixtures and their materials, factors and shares of density
+/// where cells are partly filled, the spacing where it is that of the image, and body.size if it is unset. Errors:
+/// InputError at the image, its materials, scan or size.
 void set_cells(const CellImage& image, model::Definition& definition);
 
 /// Sets body.factors, or multiplies those that the image set; body.size must be known. Errors: InputError at

@@ -7,6 +7,7 @@
 #include <map>
 #include <set>
 
+#include "io/cell_mixtures.h"
 #include "model/check.h"
 
 namespace koshi::io {
@@ -156,6 +157,7 @@ ScanCells cells_of(const CellImage& kept, const model::Definition& definition) {
   }
 
   Materials materials(definition);
+  CellMixtures mixtures(definition);
   std::map<std::uint16_t, int> count;
   for_each_cell(kept, result.cells, edge, [&](std::int64_t at) {
     if (edge == 1) {
@@ -170,13 +172,20 @@ ScanCells cells_of(const CellImage& kept, const model::Definition& definition) {
       ++count[material];
       ++solid;
     });
-    const auto most =
-        std::max_element(count.begin(), count.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
-    result.material.push_back(solid == 0 ? 0 : most->first);
+    const std::uint16_t material = solid == 0 ? std::uint16_t{0} : mixtures.material_of(count);
+    result.material.push_back(material);
     // A void has no use for a factor, but a region may fill it.
-    result.factor.push_back(solid == 0 ? 1.0F : static_cast<float>(solid / voxels));
+    const float factor = solid == 0 ? 1.0F : static_cast<float>(solid / voxels);
+    result.factor.push_back(factor);
+    // Of a mixture the voxels have the mass, not the sixteenths.
+    double mass = 0;
+    if (material > definition.materials.size())
+      for (const auto& [of, number] : count) mass += number * mixtures.density(of);
+    result.density_share.push_back(mass > 0 ? static_cast<float>(mass / (voxels * mixtures.density(material)))
+                                            : factor);
   });
-  result.density_share = result.factor;
+  result.mixtures = mixtures.mixtures();
+  result.mixture_materials = mixtures.materials(result.material, result.cells);
   materials.refuse_unknown(check);
   return result;
 }

@@ -6,8 +6,10 @@
 #include <cstring>
 #include <fstream>
 
+#include "io/connected_solids.h"
 #include "koshi/input.h"
 #include "koshi/model.h"
+#include "material/mixture.h"
 #include "support/temporary_directory.h"
 
 namespace koshi::io {
@@ -15,6 +17,7 @@ namespace {
 
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 using testing::ThrowsMessage;
 
 // A raw file of 4 x 3 x 2 voxels of type uint16, most significant byte first, behind three bytes; no two are alike.
@@ -104,23 +107,72 @@ TEST_F(Scan, ImagesAreCutAndTurned) {
 TEST_F(Scan, CellsOfSeveralVoxels) {
   const std::string body = "image = \"bytes.raw\"\nmaterials = ";
   const std::string scan = "size = [2, 2, 2]\ncoarsen = 2\n";
-  // 3 voids, 3 of clay (1), 2 of rock: clay has most, 5 of 8 are solid.
-  const model::Definition mixed = load(body + R"({ 0 = "void", 1 = "clay", 2 = "rock", 3 = "rock" })", scan);
-  EXPECT_THAT(mixed.body.cells, ElementsAre(2));
+  // 3 voids, 3 of clay (1), 2 of rock: 5 of 8 are solid, and of these 3 in 5 or 9.6 sixteenths are clay.
+  const std::string materials = R"({ 0 = "void", 1 = "clay", 2 = "rock", 3 = "rock" })";
+  const model::Definition mixed = load(body + materials, scan);
+  EXPECT_THAT(mixed.body.cells, ElementsAre(3));
   EXPECT_THAT(mixed.body.factors, ElementsAre(0.625F));
-  EXPECT_THAT(mixed.body.density_shares, ElementsAre(0.625F));
-  // The mass follows: 5/8 of a cell of 2 mm of clay, an eighth at each corner.
+  EXPECT_THAT(mixed.body.mixtures, ElementsAre(model::Mixture{3, {1, 2}, 0.625}));
+  ASSERT_EQ(mixed.materials.size(), 3u);
+  EXPECT_EQ(mixed.materials[2].name, "rock with 10/16 clay");
+  EXPECT_DOUBLE_EQ(mixed.materials[2].elastic.density, 1375);
+  // The only cell is mostly clay, which so leads through the body: the rock lies in it.
+  const material::Elastic &rock = mixed.materials[0].elastic, &clay = mixed.materials[1].elastic;
+  EXPECT_EQ(mixed.materials[2].elastic, material::mixture(rock, clay, 0.625, rock));
+  EXPECT_GT(material::mixture(rock, clay, 0.625, clay).youngs_modulus, 1.5 * mixed.materials[2].elastic.youngs_modulus);
+  // The mass is that of the voxels: 3000 + 2 x 2000 eighths, an eighth of it at each corner.
+  EXPECT_THAT(mixed.body.density_shares, ElementsAre(static_cast<float>(875.0 / 1375)));
   const model::Model model = model::make_model(mixed, Communicator::self());
-  EXPECT_NEAR(model.inertia.component(0)[model.layout().index(0, 0, 0)], 0.625 * 1000 * 1e-9 / 8, 1e-20);
-  // As many of either: the first material of the input; nothing solid: void, and no factor of zero.
-  const model::Definition even = load(body + R"({ 0 = "clay", 1 = "rock", 2 = "void", 3 = "void" })", scan);
-  EXPECT_THAT(even.body.cells, ElementsAre(1));
+  EXPECT_NEAR(model.inertia.component(0)[model.layout().index(0, 0, 0)], 875 * 1e-9 / 8, 1e-13);
+  // The resolved input has the materials of the case alone, and files read twice make no more of them.
+  EXPECT_THAT(resolved_toml(mixed), Not(HasSubstr("10/16")));
+  EXPECT_EQ(load_files(mixed), mixed);
+  // What scatters or cracks is not mixed: the solid with most voxels has the cell, of as many the first of the input.
+  const std::string scatter = "[material.clay.stiffness_scatter]\ndistribution = \"normal\"\nvariation = 0.1\n";
+  const std::string crack = "[material.rock.fracture]\ntensile_strength = \"3 MPa\"\nfracture_energy = \"100 J/m^2\"\n";
+  for (const std::string& what : {scatter, crack}) {
+    const model::Definition plain = load(body + materials, scan + what);
+    EXPECT_THAT(plain.body.cells, ElementsAre(2)) << what;
+    EXPECT_THAT(plain.body.density_shares, ElementsAre(0.625F));
+    EXPECT_TRUE(plain.body.mixtures.empty());
+    const std::string even = R"({ 0 = "clay", 1 = "rock", 2 = "void", 3 = "void" })";
+    EXPECT_THAT(load(body + even, scan + what).body.cells, ElementsAre(1));
+  }
+  EXPECT_THAT(load(body + materials, scan + "[body.grain_boundary]\nmaterial = \"clay\"\n").body.cells, ElementsAre(2));
+  // Of three solids the two with most voxels share the cell; nothing solid: void, and no factor of zero.
+  const model::Definition three =
+      load(body + R"({ 0 = "rock", 1 = "clay", 2 = "sand", 3 = "sand" })",
+           scan + "[material.sand]\nyoungs_modulus = 1e8\npoissons_ratio = 0.3\ndensity = 1000\n");
+  EXPECT_THAT(three.body.mixtures, ElementsAre(model::Mixture{4, {1, 2}, 0.5}));
   EXPECT_THAT(load(body + R"({ 0 = "void", 1 = "void", 2 = "void", 3 = "void" })", scan).body.factors,
               ElementsAre(1.0F));
   expect_refused(layers, std::string(raw) + "thresholds = [300]\ncoarsen = 2\n",
                  "there are 4 x 3 x 2 voxels, but cells of 2 voxels along an edge need multiples of 2; crop the image");
   expect_refused("image = \"bytes.raw\"\nmaterials = { 0 = \"void\" }", "size = [2, 2, 2]\nthresholds = [0.5, 2]\n",
                  "the image also has the values 1, 2 by its thresholds");
+}
+
+// Where two solids are alike in that, the inclusion is made of both: in two cells side by side, mostly rock and mostly
+// clay, each leads through along y and z.
+TEST_F(Scan, MixturesOfSolidsThatLeadThroughAlike) {
+  // Rows of four voxels: 2, 2 | 1, 1 but for one of each in the other cell.
+  std::ofstream(directory / "pair.raw", std::ios::binary) << std::string("\2\2\1\1\2\2\1\1\2\1\2\1\2\2\1\1", 16);
+  const model::Definition pair =
+      load("image = \"pair.raw\"\nmaterials = { 1 = \"clay\", 2 = \"rock\" }", "size = [4, 2, 2]\ncoarsen = 2\n");
+  const material::Elastic &rock = pair.materials[0].elastic, &clay = pair.materials[1].elastic;
+  EXPECT_THAT(pair.body.cells, ElementsAre(3, 4));
+  EXPECT_THAT(pair.body.mixtures, ElementsAre(model::Mixture{3, {1, 2}, 0.125}, model::Mixture{4, {1, 2}, 0.875}));
+  const material::Elastic both = material::geometric_mean(rock, clay, 0.5);
+  EXPECT_EQ(pair.materials[2].elastic, material::mixture(rock, clay, 0.125, both));
+  EXPECT_EQ(pair.materials[3].elastic, material::mixture(rock, clay, 0.875, both));
+}
+
+TEST(ConnectedSolids, LeadThroughAlongAxes) {
+  // Two layers of 3 x 2 cells: 1 leads along x and z, by a bend; 2 along y, in one part of two; 3 nowhere.
+  const std::vector<std::uint16_t> cells{1, 1, 2, 3, 0, 2,  //
+                                         1, 1, 1, 0, 2, 3};
+  const std::map<std::uint16_t, int> expected{{1, 2}, {2, 1}};
+  EXPECT_EQ(directions_through(cells, {3, 2, 2}), expected);
 }
 
 // Linear between the grey values, constant beyond; E goes with the density to the power.

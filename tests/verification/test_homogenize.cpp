@@ -9,6 +9,7 @@
 
 #include "koshi/directional.h"
 #include "support/first_ranks.h"
+#include "support/layers.h"
 #include "support/periodic_block.h"
 
 namespace koshi {
@@ -19,41 +20,13 @@ using material::Elastic;
 using material::ElasticTensor;
 using material::Kinematics;
 
+using test::backus;
+using test::compare;
 using test::effective;
 using test::fill;
 using test::periodic_block;
 
 const std::vector<Elastic>& elastics = test::three_elastics;
-
-// Backus 1962, J. Geophys. Res. 67: layers across `axis` with the given materials in equal shares.
-ElasticTensor backus(int axis, const std::vector<Elastic>& layers) {
-  const auto mean = [&](auto&& f) {
-    double sum = 0;
-    for (const Elastic& e : layers) sum += f(e.lambda(), e.mu(), e.lambda() + 2 * e.mu());
-    return sum / static_cast<double>(layers.size());
-  };
-  const double C = 1 / mean([](double, double, double p) { return 1 / p; });
-  const double ratio = mean([](double l, double, double p) { return l / p; });
-  const double F = C * ratio;
-  const double L = 1 / mean([](double, double m, double) { return 1 / m; });
-  const double M = mean([](double, double m, double) { return m; });
-  const double A = mean([](double l, double m, double p) { return 4 * m * (l + m) / p; }) + C * ratio * ratio;
-  ElasticTensor T;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j < 3; ++j) T.voigt[i][j] = i == j ? (i == axis ? C : A) : (i == axis || j == axis ? F : A - 2 * M);
-    T.voigt[3 + i][3 + i] = i == axis ? M : L;  // row 3 + i is the shear across the plane without axis i
-  }
-  return T;
-}
-
-int compare(const ElasticTensor& found, const ElasticTensor& expected, double tolerance) {
-  const double scale = expected.voigt[0][0];
-  int compared = 0;
-  for (int i = 0; i < 6; ++i)
-    for (int j = 0; j < 6; ++j, ++compared)
-      EXPECT_NEAR(found.voigt[i][j] / scale, expected.voigt[i][j] / scale, tolerance) << i << ' ' << j;
-  return compared;
-}
 
 TEST(Homogenize, LayersAreThoseOfBackus) {
   // Strain is uniform in each layer, which trilinear cells represent: exact up to the residual of 1e-12 and rounding.

@@ -33,6 +33,8 @@ std::string resolved_toml(const model::Definition& definition) {
   if (!resolved.title.empty()) out += fmt::format("title = {}\n", toml_text(resolved.title));
   write_table("[lattice]", resolved.lattice, out);
   write_table("[body]", resolved.body, out);
+  // Mixtures come from the image, and will again.
+  resolved.materials.resize(resolved.materials.size() - resolved.body.mixtures.size());
   for (const auto& material : resolved.materials)
     write_table(fmt::format("[material.{}]", toml_key(material.name)), material, out);
   for (const auto& region : resolved.regions) write_table("[[region]]", region, out);
