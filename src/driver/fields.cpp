@@ -28,11 +28,11 @@ Field<double> on_cells(const model::Model& model, const Field<double>& u, int co
   return field;
 }
 
-// Strain or stress, `tensor` of what is extrapolated, in the same cells; those that a surface cuts take it from the
+// Strain or stress, `tensor` of what is recovered, in the same cells; those that a surface cuts take it from the
 // whole ones around them.
 Field<double> tensor_on_cells(const model::Model& model, const Field<double>& u,
                               mechanics::Tensor6 mechanics::CellState::*own,
-                              mechanics::Tensor6 mechanics::SurfaceStress::Value::*extrapolated) {
+                              mechanics::Tensor6 mechanics::SurfaceStress::Value::*recovered) {
   Field<double> field =
       on_cells(model, u, 6, [&](const auto& state, int c) { return (state.*own)[static_cast<std::size_t>(c)]; });
   if (!model.cut) return field;
@@ -45,7 +45,7 @@ Field<double> tensor_on_cells(const model::Model& model, const Field<double>& u,
   surface.update(u);
   for (const std::int64_t n : cut) {
     const auto value = surface.at(n, surface.middle_of_part(n));
-    for (int c = 0; c < 6; ++c) field.component(c)[n] = (value.*extrapolated)[static_cast<std::size_t>(c)];
+    for (int c = 0; c < 6; ++c) field.component(c)[n] = (value.*recovered)[static_cast<std::size_t>(c)];
   }
   return field;
 }

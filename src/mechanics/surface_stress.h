@@ -1,4 +1,4 @@
-// Stress and strain at surfaces and in cells that surfaces cut, extrapolated from the whole cells there.
+// Stress and strain at surfaces and in cells that surfaces cut, recovered from the cells there.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace koshi::mechanics {
 
-/// Linear extrapolation to places in some cells. A whole cell gives the linear field fitted to the whole cells of its
-/// material around it and itself; another takes the mean of what those around it give, near ones more; without any, its
-/// own values.
+/// Values at places in some cells. A whole cell gives the quadratic field (linear in a body without cut cells) fitted
+/// to the cells of its material around it and itself, those that a surface cuts by their part inside; another takes the
+/// mean of what the whole ones around it give, near ones more; without any, its own values.
 class SurfaceStress {
  public:
   struct Value {
@@ -35,9 +35,12 @@ class SurfaceStress {
  private:
   static constexpr std::size_t components = 12;
   using Numbers = std::array<double, components>;
+  // 1, x, y, z, x^2, y^2, z^2, yz, xz, xy, in spacings from a cell's centre.
+  static constexpr std::size_t powers = 10;
   struct Known {
-    Numbers value{};
-    std::array<Numbers, 3> slope{};  // per spacing along each axis
+    Numbers value{};                      // means over the cell, or its part
+    std::array<double, powers> mean{};    // of the powers over it
+    std::array<Numbers, powers> field{};  // factors of the powers; whole cells only
   };
 
   struct Near {
@@ -46,10 +49,13 @@ class SurfaceStress {
     bool owned = false;
   };
 
-  bool whole(std::int64_t cell) const { return whole_.component(0)[cell] != 0; }
-  /// The linear field of the whole cells around one, at its centre.
-  Known fit(std::int64_t cell) const;
-  bool alike(std::int64_t a, std::int64_t b) const;
+  bool whole(std::int64_t cell) const { return part_.component(0)[cell] == 1; }
+  /// The field of the cells around a whole one.
+  std::array<Numbers, powers> fit(std::int64_t cell) const;
+  /// Means of the powers over the part of a cell inside.
+  std::array<double, powers> means(std::int64_t cell) const;
+  /// Whether two cells have the same material.
+  bool alike(std::int64_t a, std::int64_t b) const { return material_.component(0)[a] == material_.component(0)[b]; }
   std::int64_t offset(int neighbour) const;
   /// Fetches a number of near cells from the ranks that own them.
   template <class Member>
@@ -57,9 +63,10 @@ class SurfaceStress {
 
   const model::SpringLattice& body_;
   std::vector<std::int64_t> cells_;
-  // With all ghosts, which the body has not: material of whole cells, else 0.
-  lattice::Field<std::uint16_t> whole_;
-  std::vector<Near> near_;                           // whole cells of this rank and its ghosts, up to two cells away
+  // With all ghosts, which the body has not: material, and part inside, of solid cells.
+  lattice::Field<std::uint16_t> material_;
+  lattice::Field<float> part_;
+  std::vector<Near> near_;                           // solid cells of this rank and its ghosts, up to two cells away
   std::unordered_map<std::int64_t, Known> known_;    // by cell of near_
   std::unordered_map<std::int64_t, Numbers> alone_;  // cells without a whole one around
 };
