@@ -197,7 +197,8 @@ std::string write_cell_values(const Communicator& communicator, const model::Def
 model::Definition with_cells_in_file(const Communicator& communicator, model::Definition definition,
                                      const std::filesystem::path& directory) {
   model::BodyDefinition& body = definition.body;
-  if (!body.factors.empty() && body.factor.empty())
+  // An image gives its factors again when it is read.
+  if (!body.factors.empty() && body.factor.empty() && body.image.empty())
     body.factor =
         write_cell_values<vtkFloatArray>(communicator, definition, directory / "factors.vti", "factor", body.factors);
   if (!body.strengths.empty() && body.strength.empty())

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <fstream>
 
+#include "io/cell_image.h"
 #include "io/connected_solids.h"
 #include "koshi/input.h"
 #include "koshi/model.h"
@@ -127,6 +128,8 @@ TEST_F(Scan, CellsOfSeveralVoxels) {
   // The resolved input has the materials of the case alone, and files read twice make no more of them.
   EXPECT_THAT(resolved_toml(mixed), Not(HasSubstr("10/16")));
   EXPECT_EQ(load_files(mixed), mixed);
+  // Nor do the image's factors become a file beside it, which would multiply them once more.
+  EXPECT_TRUE(with_cells_in_file(Communicator::self(), mixed, directory / "").body.factor.empty());
   // What scatters or cracks is not mixed: the solid with most voxels has the cell, of as many the first of the input.
   const std::string scatter = "[material.clay.stiffness_scatter]\ndistribution = \"normal\"\nvariation = 0.1\n";
   const std::string crack = "[material.rock.fracture]\ntensile_strength = \"3 MPa\"\nfracture_energy = \"100 J/m^2\"\n";
