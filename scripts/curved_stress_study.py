@@ -8,10 +8,12 @@ Bodies with the tractions of an exact solution on their outer faces (as profiles
   plate     hole of radius a = 1 along z in a plate pulled along x, plane strain (Kirsch)
   turned    the same, pulled at 30 degrees from x
   tilted    the same hole along (1, 2, 3) in a cube, pulled at 30 degrees from the lattice in the plane across it
+  void      spherical cavity of radius a in a cube pulled along z (Goodier)
+  oblique   the same pulled along (1, 2, 3)
   bar       round bar of radius 1 along z, twisted (Coulomb)
   askew     the same bar along (1, 2, 3)
-n cells a radius, nu = 0.3. Errors in per cent: work of the tractions; peak at the curved surface, of the hoop stress (3) or the
-shear stress; that stress at all pieces of the curved surface, of its peak, mean by size and worst. The middles lie at no node.
+n cells a radius, nu = 0.3. Errors in per cent: work of the tractions; peak at the curved surface, of the hoop stress (3; at a cavity that
+along the meridian, 2.045) or the shear stress; that stress at all pieces of the curved surface, of its peak, mean by size and worst. The middles lie at no node.
 """
 import argparse
 import csv
@@ -104,8 +106,76 @@ class Hole:
         direction = tuple(-math.sin(angle) * a + math.cos(angle) * b for a, b in zip(self.p, self.q))
         return S * (1 - 2 * math.cos(2 * angle)), direction, direction
 
+    def distance(self, at):
+        """From the axis."""
+        height = dot(at, self.axis)
+        return math.sqrt(max(0, dot(at, at) - height * height))
+
     peak = 3 * S
     work = None
+
+
+class Void(Hole):
+    """Spherical cavity of radius 1 in a cube pulled along an axis (Goodier 1933, J. Appl. Mech. 1, 39): the hydrostatic part
+    of the pull and, with its deviator s, the displacements grad G : s and grad grad grad (1/r) : s, G Kelvin's solution."""
+    def __init__(self, axis):
+        super().__init__(axis, 0.0, 2.0, False)
+        self.s = [[self.axis[a] * self.axis[b] - (1 / 3 if a == b else 0) for b in range(3)] for a in range(3)]
+        # u = A r^-m s x + B r^-(m+2) (x s x) x, for both; 2 G is 1.
+        kinds = [(3, -(2 - 4 * NU), -3.0), (5, 6.0, -15.0)]
+        trace = [NU / (1 - 2 * NU) * ((3 - m) * b - m * a) for m, a, b in kinds]
+        # No traction at r = 1: parts along s x and along x.
+        (v1, v2), (w1, w2) = ([a + b - m * a / 2 for m, a, b in kinds], [t - m * a / 2 - m * b for (m, a, b), t in zip(kinds, trace)])
+        share = [-w2 / (v1 * w2 - v2 * w1), w1 / (v1 * w2 - v2 * w1)]
+        # Stress: factors of s, of x (s x) + (s x) x, of (x s x) 1 and of (x s x) x x, as pairs of factor and power of 1/r.
+        self.powers = [[(c * a, m) for c, (m, a, _) in zip(share, kinds)],
+                       [(c * (b - m * a / 2), m + 2) for c, (m, a, b) in zip(share, kinds)],
+                       [(c * (b + t), m + 2) for c, (m, _, b), t in zip(share, kinds, trace)],
+                       [(-c * (m + 2) * b, m + 4) for c, (m, _, b) in zip(share, kinds)]]
+
+    def terms(self):
+        # Formulas have at most 1000 characters, so a component is a sum of several.
+        x = [f"({v}{-c:+.9g})" for v, c in zip("xyz", CENTER)]
+        r = "((" + "+".join(f"{c}^2" for c in x) + ")^0.5)"
+        v = ["(" + "+".join(f"({self.s[a][b]:.12g})*{x[b]}" for b in range(3)) + ")" for a in range(3)]
+        q = "(" + "+".join(f"{x[a]}*{v[a]}" for a in range(3)) + ")"
+        same, mixed, unit_part, square = ("(" + "+".join(f"({c:.12g})/{r}^{m}" for c, m in part) + ")" for part in self.powers)
+        terms = []
+        for a in range(3):
+            for b in range(a, 3):
+                terms += [((a, b), f"({self.s[a][b]:.12g})*(1+{same})"), ((a, b), f"{mixed}*({x[a]}*{v[b]}+{v[a]}*{x[b]})"),
+                          ((a, b), f"({square}*{q}-0.5/{r}^5)*{x[a]}*{x[b]}")]
+                if a == b:
+                    terms.append(((a, b), f"{unit_part}*{q}+(1+0.5/{r}^3)/3"))
+        return terms
+
+    def traction(self, term, normal):
+        a, b = term
+        traction = [0.0, 0.0, 0.0]
+        traction[a] = S * normal[b]
+        traction[b] = S * normal[a]
+        return traction
+
+    def regions(self, low, size):
+        high = [l + s for l, s in zip(low, size)]
+        return (f'[[region]]\nname = "hull"\nshape = "box"\nmin = {low}\nmax = {high}\nmaterial = "rock"\n'
+                f'[[region]]\nname = "hole"\nshape = "sphere"\ncenter = {list(CENTER)}\nradius = 1.0\nmaterial = "void"\n')
+
+    def distance(self, at):
+        return math.sqrt(dot(at, at))
+
+    def stress(self, at):
+        """Exact stress along the meridian at the surface, and its direction."""
+        height, r = dot(at, self.axis), self.distance(at)
+        radial = tuple(c / r for c in at)
+        direction = unit(tuple(e - height / r * n for e, n in zip(self.axis, radial)))
+        # What is left of the tensor at r = 1 along that direction: s x has no part along it but what the axis has.
+        at_one = [sum(c for c, _ in part) for part in self.powers]
+        cosine = height / r
+        along_s, q = 1 - cosine * cosine - 1 / 3, cosine * cosine - 1 / 3
+        return S * (along_s * (1 + at_one[0]) + at_one[2] * q + 0.5), direction, direction
+
+    peak = S * (27 - 15 * NU) / (2 * (7 - 5 * NU))
 
 
 class Bar:
@@ -136,9 +206,12 @@ class Bar:
         direction = self.q if term == "p" else tuple(-c for c in self.p)
         return [sign * S * c for c in direction]
 
+    def distance(self, at):
+        return math.hypot(dot(at, self.p), dot(at, self.q))
+
     def stress(self, at):
         p, q = dot(at, self.p), dot(at, self.q)
-        r = math.hypot(p, q)
+        r = self.distance(at)
         direction = tuple(-q / r * a + p / r * b for a, b in zip(self.p, self.q))
         return S * r, direction, self.axis
 
@@ -216,9 +289,7 @@ def measure(koshi, body, n, surface, kinematics):
         own = [int(c) for c in corners[begin:int(end)]]
         begin = int(end)
         at = [sum(points[3 * c + a] for c in own) / len(own) - CENTER[a] for a in range(3)]
-        height = dot(at, body.axis)
-        r = math.sqrt(max(0, dot(at, at) - height * height))
-        if abs(r - 1) > 0.01 or (isinstance(body, Bar) and abs(height) > 0.5 * body.length - 2 * d):
+        if abs(body.distance(at) - 1) > 0.01 or (isinstance(body, Bar) and abs(dot(at, body.axis)) > 0.5 * body.length - 2 * d):
             continue  # outer faces, and the rims of the ends
         if isinstance(body, Hole) and not body.thin and max(abs(a + c) for a, c in zip(at, CENTER)) > body.half - 0.5:
             continue  # where the hole leaves the cube
@@ -234,7 +305,8 @@ def measure(koshi, body, n, surface, kinematics):
 
 def bodies():
     return [("plate", Hole((0, 0, 1), 0.0, 4.0, True)), ("turned", Hole((0, 0, 1), math.pi / 6, 4.0, True)),
-            ("tilted", Hole((1, 2, 3), math.pi / 6, 2.0, False)), ("bar", Bar((0, 0, 1))), ("askew", Bar((1, 2, 3)))]
+            ("tilted", Hole((1, 2, 3), math.pi / 6, 2.0, False)), ("void", Void((0, 0, 1))), ("oblique", Void((1, 2, 3))),
+            ("bar", Bar((0, 0, 1))), ("askew", Bar((1, 2, 3)))]
 
 
 def main():
