@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/history_reader.h"
+#include "support/cracking_plate.h"
 #include "support/program_test.h"
 
 namespace koshi {
@@ -15,23 +16,9 @@ using test::Ended;
 using testing::HasSubstr;
 namespace fs = std::filesystem;
 
-const std::string plate = R"(lattice = { spacing = "5 mm", calibration = "isotropic" }
-body = { size = ["60 mm", "45 mm", "10 mm"], material = "rock" }
-[material.rock]
-youngs_modulus = "30 GPa"
-poissons_ratio = 0.2
-density = "2400 kg/m^3"
-fracture = { law = "bonds", fracture_energy = "20 J/m^2" }
-[[region]]
-shape = "box"
-min = ["30 mm", "0 mm", "0 mm"]
-max = ["35 mm", "15 mm", "10 mm"]
-material = "void"
-[[boundary]]
-name = "wall"
-face = "x-min"
-fix = ["x", "y", "z", "rx", "ry", "rz"]
-[[boundary]]
+const std::string plate =
+    test::notched_plate("rock", R"(law = "bonds", fracture_energy = "20 J/m^2")", "calibration = \"isotropic\"\n") +
+    R"([[boundary]]
 name = "pull"
 face = "x-max"
 displacement = { x = "20 um", y = "2.5 um" }
