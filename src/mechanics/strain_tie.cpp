@@ -1,16 +1,11 @@
 #include "mechanics/strain_tie.h"
 
-#include <bit>
-#include <cmath>
-
 #include "mechanics/cell_table.h"
+#include "mechanics/corner_modes.h"
 #include "mechanics/corners.h"
 
 namespace koshi::mechanics {
 namespace {
-
-// Of a corner in a mode, given as the bits of its axes: the product of the signs of its coordinates.
-double sign(int corner, int mode) { return std::popcount(static_cast<unsigned>(~corner & mode)) % 2 == 0 ? 1 : -1; }
 
 // The six uniform strains by corner unknowns, n a node, each of length 1.
 Eigen::MatrixXd uniform_strains(int n) {
@@ -19,8 +14,8 @@ Eigen::MatrixXd uniform_strains(int n) {
     const auto i = static_cast<int>(tensor_axes[static_cast<std::size_t>(v)][0]),
                j = static_cast<int>(tensor_axes[static_cast<std::size_t>(v)][1]);
     for (int a = 0; a < corner_count; ++a) {
-      strains(n * a + i, v) = sign(a, 1 << j);
-      strains(n * a + j, v) = sign(a, 1 << i);
+      strains(n * a + i, v) = mode_sign(a, 1 << j);
+      strains(n * a + j, v) = mode_sign(a, 1 << i);
     }
     strains.col(v).normalize();
   }
@@ -36,7 +31,7 @@ Tensor6 tie_stress(const material::Springs& springs, double d, const CellMotion&
   const auto amplitude = [](const std::array<Vec3, 8>& of, int component, int mode) {
     double sum = 0;
     for (int a = 0; a < corner_count; ++a)
-      sum += sign(a, mode) * of[static_cast<std::size_t>(a)][static_cast<std::size_t>(component)];
+      sum += mode_sign(a, mode) * of[static_cast<std::size_t>(a)][static_cast<std::size_t>(component)];
     return sum;
   };
   const auto rho = [&](int component, int mode) { return 0.5 * d * amplitude(motion.rotation, component, mode); };

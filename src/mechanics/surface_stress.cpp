@@ -3,11 +3,11 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 
-#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "lattice/halo.h"
+#include "mechanics/corner_modes.h"
 #include "mechanics/cut_forces.h"
 #include "model/moments.h"
 
@@ -53,8 +53,7 @@ Tensor6 part_strain(const CellMotion& motion, const model::Moments& moments, dou
   for (int p = 1; p < 8; ++p) {
     Vec3 amplitude{};
     for (int a = 0; a < 8; ++a)
-      amplitude = amplitude + (std::popcount(static_cast<unsigned>(~a & p)) % 2 == 0 ? 0.125 : -0.125) *
-                                  motion.displacement[static_cast<std::size_t>(a)];
+      amplitude = amplitude + 0.125 * mode_sign(a, p) * motion.displacement[static_cast<std::size_t>(a)];
     for (int j = 0; j < 3; ++j) {
       if ((p >> j & 1) == 0) continue;
       const int left = p & ~(1 << j), moment = model::moment_index({left & 1, left >> 1 & 1, left >> 2});
@@ -108,6 +107,10 @@ SurfaceStress::SurfaceStress(const model::SpringLattice& body, std::span<const s
                       near_.push_back({n, 3 - mark.component(0)[n], layout.owns({i, j, k})});
                       known_[n] = {};
                     });
+  // Ghosts get their numbers from their owners.
+  for (const Near& near : near_)
+    if (near.owned) known_.at(near.cell).mean = means(near.cell);
+  for (std::size_t q = 0; q < powers; ++q) exchange([&](Known& known) -> double& { return known.mean[q]; });
 }
 
 std::int64_t SurfaceStress::offset(int neighbour) const {
@@ -136,14 +139,9 @@ void SurfaceStress::update(const lattice::Field<double>& u) {
     }
     return all;
   };
-  // Ghosts get their numbers from their owners.
   for (const Near& near : near_)
-    if (near.owned) {
-      known_.at(near.cell).value = numbers(near.cell);
-      known_.at(near.cell).mean = means(near.cell);
-    }
+    if (near.owned) known_.at(near.cell).value = numbers(near.cell);
   for (std::size_t c = 0; c < components; ++c) exchange([&](Known& known) -> double& { return known.value[c]; });
-  for (std::size_t q = 0; q < powers; ++q) exchange([&](Known& known) -> double& { return known.mean[q]; });
 
   for (const Near& near : near_)
     if (near.owned && near.distance < 2 && whole(near.cell)) known_.at(near.cell).field = fit(near.cell);
@@ -236,10 +234,8 @@ SurfaceStress::Value SurfaceStress::at(std::int64_t cell, const Vec3& from_centr
 }
 
 Vec3 SurfaceStress::middle_of_part(std::int64_t cell) const {
-  const model::SurfaceCell* const cut = surface_cell(body_, cell);
-  if (cut == nullptr) return {};
-  const model::Moments& m = cut->moments;
-  return (0.5 / m[0]) * Vec3{m[1], m[2], m[3]};
+  const auto mean = means(cell);
+  return {mean[1], mean[2], mean[3]};
 }
 
 }  // namespace koshi::mechanics

@@ -17,19 +17,10 @@ using test::block_of_bonds;
 
 // A bar along x with a layer of weaker bonds in the middle, held and pulled by smooth platens.
 model::Definition bar() {
-  model::Definition definition = block_of_bonds({16, 2, 2}, 0.005);
-  definition.materials.push_back({"weak", definition.materials[0].elastic, definition.materials[0].fracture});
-  definition.materials[0].fracture.reset();
-  model::RegionDefinition layer;
-  layer.material = "weak";
-  layer.min = {0.04, 0, 0};
-  layer.max = {0.045, 0.01, 0.01};
-  definition.regions = {layer};
+  model::Definition definition = test::bar_with_weak_layer();
   model::BoundaryDefinition pull = test::fixed("pull", model::Face::x_max, {4, 5});
   pull.displacement[0] = 1e-4;
   definition.boundaries = {test::fixed("wall", model::Face::x_min, {0, 4, 5}), pull};
-  definition.probes = {test::probe("force", model::Face::x_max, model::ProbeDefinition::Quantity::reaction,
-                                   model::ProbeDefinition::Reduce::sum)};
   definition.analysis.damping = {model::DampingDefinition::Kind::local, 0.3};
   definition.output.history_every = 5e-6;
   return definition;

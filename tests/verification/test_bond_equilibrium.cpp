@@ -28,20 +28,11 @@ const double kn = 16.0 / 15 * 25e9 * d, M = 2.5 * kn / d, e_c = std::sqrt(200 / 
 const double force = M * e_c * area, motion = e_c * d;
 
 model::Definition bar() {
-  model::Definition definition = test::block_of_bonds({16, 2, 2}, d);
+  model::Definition definition = test::bar_with_weak_layer();
   definition.body.periodic = {false, true, true};
-  definition.materials.push_back({"weak", definition.materials[0].elastic, definition.materials[0].fracture});
-  definition.materials[0].fracture.reset();
-  model::RegionDefinition layer;
-  layer.material = "weak";
-  layer.min = {0.04, 0, 0};
-  layer.max = {0.045, 0.01, 0.01};
-  definition.regions = {layer};
   model::BoundaryDefinition pull = test::fixed("pull", model::Face::x_max, {1, 2, 3, 4, 5});
   pull.displacement[0] = 100 * motion;
   definition.boundaries = {test::fixed("wall", model::Face::x_min, {0, 1, 2, 3, 4, 5}), pull};
-  definition.probes = {test::probe("force", model::Face::x_max, model::ProbeDefinition::Quantity::reaction,
-                                   model::ProbeDefinition::Reduce::sum)};
   definition.analysis = {};
   definition.analysis.type = model::AnalysisDefinition::Type::statics;
   definition.analysis.tolerance = 1e-9;
