@@ -15,7 +15,12 @@ constexpr double tie = 1e-3;
 }  // namespace
 
 BondEvents::BondEvents(BondBreaking& breaking, model::Model& model, model::State& state)
-    : breaking_(breaking), model_(model), state_(state), broken_(breaking, model, state), bonds_(breaking, model) {}
+    : breaking_(breaking),
+      model_(model),
+      state_(state),
+      broken_(breaking, model, state),
+      bonds_(breaking, model),
+      load_(state.displacement) {}
 
 // How far nodes have moved apart along an axis, over the longest side of the body.
 double BondEvents::spread() const {
@@ -56,15 +61,8 @@ double BondEvents::next() {
   return factor;
 }
 
-void BondEvents::scale(double factor) {
-  double* const u = state_.displacement.data();
-  const std::int64_t size = state_.displacement.stride() * state_.displacement.components();
-  for (std::int64_t i = 0; i < size; ++i) u[i] *= factor;
-}
-
 void BondEvents::go(double factor) {
-  factor_ = factor;
-  scale(factor);
+  load_.go(factor);
   broken_.update();
   for (const std::int64_t n : breaking_.cracked_)
     if (breaking_.fresh(n) != 0) breaking_.break_in_cell(n, broken_.energy_lost(n));
@@ -77,11 +75,6 @@ bool BondEvents::soften() {
   bonds_.break_them();
   broken_.renew();
   return true;
-}
-
-void BondEvents::unload() {
-  scale(1 / factor_);
-  factor_ = 1;
 }
 
 }  // namespace koshi::failure

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "failure/broken_bonds.h"
+#include "failure/load_factor.h"
 #include "failure/strained_bonds.h"
 
 namespace koshi::failure {
@@ -17,11 +18,10 @@ class BondEvents : public EventLaw {
   double next() override;
   void go(double factor) override;
   bool soften() override;
-  void unload() override;
+  void unload() override { load_.unload(); }
   CrackContact& contact() override { return broken_; }
 
  private:
-  void scale(double factor);
   double spread() const;
 
   BondBreaking& breaking_;
@@ -30,7 +30,7 @@ class BondEvents : public EventLaw {
   BrokenBonds broken_;
   StrainedBonds bonds_;
   bool breaks_ = false;  ///< what next() has found is a bond that breaks
-  double factor_ = 1;    ///< of the displacements now
+  LoadFactor load_;
 };
 
 }  // namespace koshi::failure

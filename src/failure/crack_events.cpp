@@ -20,7 +20,7 @@ constexpr double least_strength = 4e-3;
 }  // namespace
 
 CrackEvents::CrackEvents(Cracking& cracking, model::Model& model, model::State& state)
-    : cracking_(cracking), model_(model), state_(state), faces_(cracking, model, state) {
+    : cracking_(cracking), model_(model), state_(state), faces_(cracking, model, state), load_(state.displacement) {
   state_.face_force.zero();
   for (const std::int64_t n : cracking_.cracked_) cracking_.weaken(n, cracking_.load(n).damage);
 }
@@ -87,12 +87,6 @@ double CrackEvents::next() {
   return least_;
 }
 
-void CrackEvents::scale(double factor) {
-  double* const u = state_.displacement.data();
-  const std::int64_t size = state_.displacement.stride() * state_.displacement.components();
-  for (std::int64_t i = 0; i < size; ++i) u[i] *= factor;
-}
-
 void CrackEvents::go(double factor) {
   const double d = model_.lattice.grid.d;
   for (const Loss& loss : losses_) {
@@ -104,8 +98,7 @@ void CrackEvents::go(double factor) {
         factor * loss.gain * static_cast<double>(cracking_.whole_.component(0)[loss.cell]) * d * d * d;
   }
   losses_.clear();
-  factor_ = factor;
-  scale(factor);
+  load_.go(factor);
   faces_.springs().update(state_.displacement);
 }
 
@@ -148,11 +141,6 @@ void CrackEvents::soften(std::int64_t n) {
   if (!fresh) return;
   cracking_.begun_.push_back(n);
   faces_.note(n);
-}
-
-void CrackEvents::unload() {
-  scale(1 / factor_);
-  factor_ = 1;
 }
 
 }  // namespace koshi::failure

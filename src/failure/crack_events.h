@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "failure/closed_faces.h"
+#include "failure/load_factor.h"
 
 namespace koshi::failure {
 
@@ -20,7 +21,7 @@ class CrackEvents : public EventLaw {
   void go(double factor) override;
   /// False where a crack has only come to the end of its energy.
   bool soften() override;
-  void unload() override;
+  void unload() override { load_.unload(); }
   ClosedFaces& contact() override { return faces_; }
 
  private:
@@ -41,7 +42,6 @@ class CrackEvents : public EventLaw {
   double gain(const Loss& loss) const;
   double factor_of_cracked(std::int64_t n) const;
   void soften(std::int64_t n);
-  void scale(double factor);
 
   Cracking& cracking_;
   model::Model& model_;
@@ -51,7 +51,7 @@ class CrackEvents : public EventLaw {
   std::vector<Candidate> candidates_;
   double least_ = 0;    ///< factor of the first candidate
   double largest_ = 0;  ///< radius of the strain's deviator among whole cells
-  double factor_ = 1;   ///< of the displacements now
+  LoadFactor load_;
 };
 
 }  // namespace koshi::failure
